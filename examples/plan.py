@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Plans a way between two joint positions with RRT-Connect (Kuffner and LaValle, 2000). The node proves each edge.
+"""Plans a motion between two joint positions with RRT-Connect (Kuffner and LaValle, 2000). The node proves that each edge
+is free. The plan is printed with three decimals; the proof is for the values before rounding.
 
 Start it beside one_arm.launch: rosrun hgrid_proximity plan.py [--joints NAME,NAME,...] START... : GOAL...
 
-START and GOAL have one value [rad or m] for each joint. Without --joints, these are joint_1 to joint_6.
+START and GOAL have one value [rad or m] for each joint, in the order of --joints. The default joints are joint_1 to
+joint_6.
 """
 import sys
 
@@ -15,7 +17,7 @@ from hgrid_proximity.client import Proximity
 from hgrid_proximity.errors import ProximityError
 
 JOINTS = ["joint_1", "joint_2", "joint_3", "joint_4", "joint_5", "joint_6"]
-STEP = 1.0  # [rad] largest distance of the ends of an edge, in joint space
+STEP = 1.0  # [rad, or m for prismatic joints] largest length of an edge in joint space
 MAX_TRIES = 3000  # number of tries
 
 
@@ -32,7 +34,8 @@ class Planner:
         self._lease, self.edges = ends.response.lease, 0
 
     def extend(self, tree, target):
-        """Goes from the nearest node of a tree toward the target, as far as it is free. Returns whether it got there."""
+        """Adds edges from the node nearest to `target` toward `target`, until one is not free. Returns whether the tree
+        reached `target`."""
         states = numpy.array([state for state, _ in tree])
         nearest = int(numpy.argmin(numpy.linalg.norm(states - target, axis=1)))
         way = target - states[nearest]

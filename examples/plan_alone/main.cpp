@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Plans a way of a robot through a map with RRT-Connect (Kuffner and LaValle, 2000). Every edge of the way is proved to
-// be free. Uses the library without ROS.
+// Plans a motion of a robot through a map with RRT-Connect (Kuffner and LaValle, 2000). StateChecker proves that each
+// edge of the plan is free. The plan is printed with three decimals; the proof is for the values before rounding.
+// Space that the map does not know counts as free. Uses the library without ROS.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -31,11 +32,12 @@ constexpr char kUsage[] =
     "usage: plan_alone [--srdf FILE] [--packages FOLDER --mesh-reader PROGRAM] [--at X Y Z] FILE.urdf FILE.bt START... "
     ": "
     "GOAL...\n"
-    "  --srdf FILE            which pairs of links may touch\n"
-    "  --packages FOLDER      has the packages with the meshes of the robot\n"
-    "  --mesh-reader PROGRAM  path of proximity_mesh_reader, which reads these meshes\n"
-    "  --at X Y Z             where the root link stands in the map [m]\n"
-    "  START, GOAL            one value for each joint [rad or m], with spaces between them\n";
+    "  --srdf FILE            SRDF file that says which pairs of links may touch\n"
+    "  --packages FOLDER      folder that contains the ROS packages with the meshes of the robot\n"
+    "  --mesh-reader PROGRAM  path of the program proximity_mesh_reader, which reads these meshes\n"
+    "  --at X Y Z             position of the root link in the frame of the map [m]; default: 0 0 0\n"
+    "  START, GOAL            one value for each joint variable [rad or m], separated by spaces. If their number is\n"
+    "                         wrong, the program prints the names of the variables in their order.\n";
 
 std::string textOf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -52,7 +54,8 @@ hgrid::RobotModel readRobot(const std::string& urdf, const std::string& packages
                          [&](const std::string& uri, const Eigen::Vector3d& scale) { return loader.load(uri, scale); });
 }
 
-/// Adds each link that has collision shapes. StateChecker does not need the poses of links except that of the root.
+/// Adds each link that has collision shapes. All poses here are placeholders: StateChecker computes the poses of the
+/// links from StateBatch::world_from_root and the joint values.
 void addRobot(hgrid::Scene& scene, hgrid::NarrowPhase& narrow, const hgrid::RobotModel& model,
               const hgrid::LinkRules& rules) {
   std::vector<std::string> warnings;
@@ -117,13 +120,14 @@ class Planner {
   };
   using Tree = std::vector<Node>;
 
-  /// Goes from the nearest node of a tree toward the target, as far as it is free. Returns whether it got there.
+  /// Adds edges from the node that is nearest to `target` toward `target`, until an edge is not free. Returns whether
+  /// the tree reached `target`.
   bool extend(Tree& tree, const State& target) {
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < tree.size(); ++i) {
       if (apart(tree[i].state, target) < apart(tree[nearest].state, target)) nearest = i;
     }
-    constexpr double kStep = 1.0;  // [rad] largest distance of the ends of an edge
+    constexpr double kStep = 1.0;  // largest length of an edge in joint space [rad, or m for prismatic joints]
     while (true) {
       const State& from = tree[nearest].state;
       const double length = apart(from, target), part = length > kStep ? kStep / length : 1.0;
@@ -146,7 +150,7 @@ class Planner {
   }
 
   State randomState() {
-    State state;
+    State state;  // a joint without limits: about one turn
     for (const hgrid::JointVariable& variable : checker_.kinematics().variables()) {
       const double low = std::isfinite(variable.lower) ? variable.lower : -3.1;
       const double high = std::isfinite(variable.upper) ? variable.upper : 3.1;
@@ -177,11 +181,11 @@ class Planner {
   hgrid::EdgeRequest request_;
   hgrid::StateScratch scratch_;
   hgrid::EdgeAnswers answers_;
-  std::mt19937 random_{1};  // the same numbers everywhere
+  std::mt19937 random_{1};  // fixed seed, so that the plan is reproducible
   int edges_ = 0;
 };
 
-/// Says why a state is not free, and returns false, or returns true.
+/// Returns whether a state is free. If not, prints the reason. @param name  "start" or "goal"
 bool checkEnd(const char* name, const hgrid::StateChecker& checker, const hgrid::Pose& world_from_root,
               const State& state) {
   hgrid::StateBatch batch;

@@ -12,7 +12,8 @@ thousands of pairs is cheap to read.
     time[], duration[]                   array of n int64 [ns], a copy
     everything else                      as rospy reads it
 
-All fields except time[] and duration[] can also be written like this. Lists, as rospy has them, can always be written.
+Fields can be assigned the same kinds of values before a message is written. Lists, such as rospy uses, are always
+accepted. For time[] and duration[], only lists of genpy.Time and genpy.Duration are accepted.
 """
 from __future__ import annotations
 
@@ -30,11 +31,11 @@ _TIMES = {"time": (genpy.Time, "<I"), "duration": (genpy.Duration, "<i")}
 
 
 def with_arrays(kind):
-    """Returns a message class with the same fields as the class `kind`, whose arrays are numpy arrays.
+    """Returns a message class with the same fields as the class `kind`. Its arrays are numpy arrays.
 
     Use it to subscribe: `rospy.Subscriber(topic, with_arrays(Pairs), callback)`. Reading throws
-    genpy.DeserializationError if the bytes end too early or contain more than the message. Writing throws
-    genpy.SerializationError if a value does not fit its field.
+    genpy.DeserializationError if the message ends too early or is followed by further bytes. Writing throws
+    genpy.SerializationError if a value has a wrong type or shape, or if a number is out of the range of its field.
     """
 
     def serialize(self, buff):
@@ -192,10 +193,8 @@ def _array_writer(element: str, length):
             buff.write(struct.pack("<I", len(value)))
         if isinstance(value, numpy.ndarray) and (dtype or columns):
             if value.shape[1:] != ((columns,) if columns else ()):
-                raise ValueError(f"its shape is {value.shape}; it must have {columns or 'no'} columns")
-            if not numpy.can_cast(value.dtype, dtype or "<d", "same_kind"):
-                raise ValueError(f"it is an array of {value.dtype}; it must be of {element}")
-            buff.write(numpy.ascontiguousarray(value, dtype or "<d").tobytes())
+                raise ValueError(f"its shape is {value.shape}; it must be {('n', columns) if columns else ('n',)}")
+            buff.write(_converted(value, dtype or "<d", element).tobytes())
         elif dtype:
             buff.write(struct.pack(f"<{len(value)}{dtype[1]}", *value))
         else:
@@ -203,3 +202,16 @@ def _array_writer(element: str, length):
                 write(buff, one)
 
     return write_list
+
+
+def _converted(value: numpy.ndarray, dtype: str, element: str) -> numpy.ndarray:
+    """Returns the numbers of an array in another type. @throws ValueError if a number cannot be represented"""
+    to = numpy.dtype(dtype)
+    if value.dtype.kind not in {"b": "b", "i": "biu", "u": "biu", "f": "biuf"}[to.kind]:
+        raise ValueError(f"it is an array of {value.dtype}; it must be of {element}")
+    with numpy.errstate(over="ignore"):
+        data = numpy.ascontiguousarray(value, to)
+    fits = numpy.isinf(data) == numpy.isinf(value) if to.kind == "f" else data == value
+    if not numpy.all(fits):
+        raise ValueError(f"a number is out of the range of {element}")
+    return data

@@ -23,8 +23,9 @@ class QueryBatchArrays(QueryBatch):
 class Batch(Verdicts):
     """The answer to query_batch(). It has `clear`, `hit`, `unknown` and `text()` of Verdicts.
 
-    total: array of n numbers of bodies that each question hit, also those that `limit` left out
-    nearest: [m] array of n distances of the first hit of each question; NaN: it has no hit
+    total: array of n numbers: how many bodies each question hit, listed or not; for points and bodies: listed hits only
+    nearest: [m] array of n numbers: distance of the first hit of each question (for a segment: the first along it), 0 if
+        they overlap; NaN: no hit
     response: the arrays of all hits, such as response.distance (`rossrv show -r hgrid_proximity/QueryBatch`)
     """
 
@@ -32,13 +33,13 @@ class Batch(Verdicts):
         super().__init__(response)
         self.total = response.totals
         self._end = response.hits_end.astype(int)
-        self._begin = numpy.concatenate(([0], self._end[:-1]))
+        self._begin = numpy.concatenate(([0], self._end))[:-1]
         self.nearest = numpy.full(len(self), numpy.nan)
         listed = self._end > self._begin
         self.nearest[listed] = response.distance[self._begin[listed]]
 
     def hits(self, index: int) -> slice:
-        """Returns which elements of the arrays of `response` are the hits of a question."""
+        """Returns the slice that selects the hits of a question in the arrays of `response`."""
         return slice(self._begin[index], self._end[index])
 
     def names(self, index: int) -> List[str]:
@@ -72,7 +73,9 @@ def _parts(name: str, value, count: int):
     if name == "boxes" and len(parts) == 2:
         parts += (None,)
     if len(parts) != count:
-        raise ValueError(f"{name} has {len(parts)} arrays; it must have {count}")
+        wanted = {"spheres": "(centers, radii)", "segments": "(starts, ends, radii)",
+                  "boxes": "(centers, sizes) or (centers, sizes, orientations)"}[name]
+        raise ValueError(f"{name} has {len(parts)} elements; it must be {wanted}")
     return parts
 
 
@@ -86,7 +89,7 @@ def _rows(name: str, values, columns: int, count=None) -> numpy.ndarray:
 
 
 def _column(name: str, values, count: int) -> numpy.ndarray:
-    """Returns one number for each question. One number alone is the same for all of them."""
+    """Returns an array with one number for each question. @param values  such an array, or one number for all questions"""
     numbers = numpy.asarray(values, "<f8")
     numbers = numpy.full(count, numbers) if numbers.ndim == 0 else numbers
     if numbers.shape != (count,):

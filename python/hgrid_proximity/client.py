@@ -190,29 +190,32 @@ class Proximity:
         boxes=None,
         shapes: Iterable[Shape] = (),
         points=None,
-        bodies: Iterable[str] = (),
+        bodies: Union[str, Iterable[str]] = (),
         max_distance: float = 0.0,
         lease=None,
         keep: float = 0.0,
         **options,
     ) -> Batch:
-        """Asks thousands of questions about one state of the world. They are numbered in the order of the arguments.
+        """Asks many questions about one state of the world in one request. The questions are numbered in the order of the
+        arguments: first all spheres, then segments, boxes, shapes, points and bodies.
 
-        @param spheres  centers, radii: which bodies does each sphere touch?
-        @param segments  starts, ends, radii: which bodies does each segment touch?
-        @param boxes  centers, sizes, or centers, sizes, orientations: which bodies does each box touch?
-        @param shapes  which bodies does each shape touch?
-        @param points  which bodies are nearest to each point?
-        @param bodies  names; which bodies are nearest to each body?
-        @param max_distance  [m] for points and bodies: what is farther away cannot be hit; 0: no limit
-        @param lease  `response.lease` of an earlier answer, to ask the same state of the world
-        @param keep  [s] how long the node should keep this state of the world for further requests
-        @param options  as for all queries, but `limit` is 1 unless given, and `max_time` is at most 10 s
+        @param spheres  (centers, radii) [m]: which bodies does each sphere touch?
+        @param segments  (starts, ends, radii) [m]: which bodies does each segment touch?
+        @param boxes  (centers, sizes) or (centers, sizes, orientations) [m]: which bodies does each box touch? Sizes are full
+            lengths of the sides. Without orientations, the boxes are parallel to the axes of the frame.
+        @param shapes  messages hgrid_proximity/Shape: which bodies does each shape touch?
+        @param points  [m] which bodies are nearest to each point?
+        @param bodies  names of bodies: which other bodies are nearest to each of them?
+        @param max_distance  [m] for points and bodies: bodies that are farther away cannot be hit; 0: no limit
+        @param lease  `response.lease` of an earlier answer: asks about the same state of the world; None: the newest
+        @param keep  [s] how long the node should keep this state of the world for later requests, at most ~lease_max
+        @param options  the options of all queries, with two differences: `limit` is for each question, and 0 means 1;
+            `max_time` is for all questions together, and 0 or more than 10 means 10 s
 
-        Centers, starts, ends, sizes and points are arrays of n rows with three numbers, orientations have four (x, y, z,
-        w). Radii are arrays of n numbers, or one number for all.
+        Centers, starts, ends, sizes and points are arrays of the shape (n, 3). Orientations are quaternions x, y, z, w of
+        the shape (n, 4). Radii are n numbers, or one number for all questions. Coordinates are in the frame `frame`.
         """
-        request = QueryBatchArrays._request_class(shape=list(shapes), nearest_to_body=list(bodies))
+        request = QueryBatchArrays._request_class(shape=list(shapes), nearest_to_body=globs(bodies))
         write_geometry(request, spheres, segments, boxes, points)
         request.max_distance = max_distance
         _apply(request, **options)
@@ -235,16 +238,17 @@ class Proximity:
         exclude: Union[str, Iterable[str]] = (),
         max_time: float = 0.0,
     ) -> Field:
-        """How far is the nearest body from each point of a lattice?
+        """Returns the signed distance of the nearest body at each point of a lattice.
 
-        @param corner  [m] first point of the lattice
-        @param size  [m] lengths of its sides
-        @param resolution  [m] distance of neighboring points; there may be 1,000,000 points
-        @param max_distance  [m] a larger distance is returned as this value
-        @param orientation  quaternion x, y, z, w: how the lattice is turned
-        @param gradients  True: also compute the gradient of the distance at each point
+        @param corner  [m] first point of the lattice, in the frame `frame`
+        @param size  [m] lengths of the sides of the lattice
+        @param resolution  [m] distance of neighboring points; a lattice has at most 1,000,000 points
+        @param max_distance  [m] larger distances become max_distance, larger depths -max_distance
+        @param orientation  quaternion x, y, z, w: orientation of the lattice in the frame `frame`
+        @param gradients  True: also return the gradient of the distance at each point
         @param lease, keep  as for query_batch()
-        @param max_time  [s] time limit, at most 10
+        @param frame, stamp, include, exclude  as for all queries
+        @param max_time  [s] time limit; 0, or more than 10, means 10
         """
         request = FieldArrays._request_class(resolution=resolution, max_distance=max_distance, gradients=gradients)
         request.pose = as_pose(as_point("corner", corner), orientation)

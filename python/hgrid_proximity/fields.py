@@ -20,12 +20,11 @@ class FieldArrays(DistanceField):
 class Field:
     """A distance field: point (i, j, k) is at `resolution` * (i, j, k) in the frame of the lattice.
 
-    distance: [m] array of the shape (nx, ny, nz): signed distance, negative inside a body; NaN: something unseen may be
-        nearer
+    distance: [m] array of the shape (nx, ny, nz): signed distance, negative inside a body; NaN: not known, see `text`
     gradient: array of the shape (nx, ny, nz, 3): gradient in the frame of the lattice; None unless it was requested. 0
-        where the distance is max_distance
+        where the distance is max_distance or -max_distance; NaN where the distance or the gradient is not known
     unknown: number of points whose distance is NaN
-    text: why the distance of the first of them is not known; empty if there are none
+    text: why the distance of the first of these points is not known; empty if no point is NaN
     response: the whole response of the service; response.lease names the state of the world
     """
 

@@ -31,5 +31,5 @@ class Verdicts:
         raise TypeError("an answer is neither true nor false; read .clear, .hit or .unknown")
 
     def text(self, index: int) -> str:
-        """Says why the answer to a question is unknown or why it was refused; empty for others."""
+        """Returns why a question is UNKNOWN or was refused; empty for all other questions."""
         return self.response.texts[index] if self.response.texts else ""

@@ -11,7 +11,7 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-/// Returns the unit vector in the direction of v; if v is 0, any unit vector across `axis`.
+/// Returns the unit vector in the direction of v; if v is 0, any unit vector perpendicular to `axis`.
 Vector directionOf(const Vector& v, const Vector& axis = Vector::UnitZ()) {
   const double length = v.norm();
   return length > 0.0 ? Vector(v / length) : axis.unitOrthogonal();
@@ -22,7 +22,7 @@ InnerDepth least(std::initializer_list<InnerDepth> sides) {
                            [](const InnerDepth& a, const InnerDepth& b) { return a.depth < b.depth; });
 }
 
-/// Returns the depth below the two ends of a shape along z. @param half  [m] half of its height
+/// Returns the depth below the nearer of the two flat ends of a shape. @param half  [m] half of its height
 InnerDepth belowEnds(const Vector& point, double half) {
   return {half - std::abs(point.z()), std::copysign(1.0, point.z()) * Vector::UnitZ()};
 }

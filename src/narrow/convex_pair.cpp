@@ -15,7 +15,7 @@ using Vector = Eigen::Vector3d;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // [m] Largest accepted difference between the gap and the distance of the two nearest points, besides rounding.
 constexpr double kDisagreement = 1e-6;
-// [m] Bounds of a gap that differ by less count as equal, besides rounding.
+// [m] If the lower and the upper bound of a gap differ by less than this plus the rounding error, they count as equal.
 constexpr double kUnsettled = 1e-9;
 // [m] To verify a depth, the solids are moved apart by the depth plus this length. Then they must be apart.
 constexpr double kHair = 1e-6;
@@ -91,7 +91,7 @@ std::optional<Proximity> answerByReach(const Side& a, const Side& b, const Pose&
 Proximity answerByGap(const Side& a, const Side& b, const Pose& a_from_b, const CoreGap& gap, double up_to) {
   const double around = a.around + b.around;
   const double rounding = 1e-12 * (a.solid.reach() + b.solid.reach() + a_from_b.translation().norm());
-  // If the search ended before its bounds met, only the lower bound is proved.
+  // If the search ended before the two bounds were equal, only the lower bound is certain.
   const double proved = gap.upper - gap.lower > kUnsettled + rounding ? gap.lower : gap.upper;
   Proximity result = answerOf(Measure::apart, std::max(0.0, proved - around));
   if (result.distance > up_to) return answerOf(Measure::apart, kInfinity);

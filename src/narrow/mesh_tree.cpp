@@ -53,13 +53,15 @@ struct TriangleMeter {
 template <class Meter>
 CoreGap leastGap(BoxSearch search, const Meter& measure, double up_to) {
   CoreGap best;
-  best.lower = std::numeric_limits<double>::infinity();
+  double least = best.lower = std::numeric_limits<double>::infinity();  // of the lower bounds of all parts
   search.run(up_to, [&](std::size_t i, std::size_t j) {
     const double enough = std::min(up_to, best.upper);
     const CoreGap gap = measure(i, j, enough);
+    least = std::min(least, gap.lower);
     if (gap.lower <= 0.0 || (gap.upper < best.upper && gap.lower <= enough)) best = gap;
     return best.lower <= 0.0 ? -1.0 : std::min(up_to, best.upper);
   });
+  best.lower = std::min(best.lower, least);
   return best;
 }
 

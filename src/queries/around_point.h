@@ -43,7 +43,7 @@ class AroundPoint : public Question {
   Probe center(const NarrowPhase& narrow_phase) const {
     return {narrow_phase, *narrow_phase.point(), Pose(Eigen::Translation3d(region_.center))};
   }
-  // The functions below set the distances of a hit. They are distances from a sphere of `radius` [m] around the center.
+  // The functions below set the distances of a hit: those of the surface of a sphere of `radius` [m] around the center.
 
   /// Returns whether a cell is at most `limit` [m] from the center. If so, sets `hit` to the nearest cell.
   bool hitsNearestCell(const PlacedMap& map, double limit, double radius, QueryHit& hit) const {
@@ -64,12 +64,14 @@ class AroundPoint : public Question {
     setDistance(hit, distance - radius);
     return true;
   }
+  /// Sets the distances and the nearest point of `hit` from the box of a proxy.
   void measureBox(ProxyId proxy, double radius, QueryHit& hit) const {
     const Eigen::AlignedBox3d box = inDouble(boxOf(proxy)), point(local_.center);
     hit.center_distance = distance(boxOf(proxy), local_.center);
     hit.point = nearestPoint(box, local_.center) + origin();
     setDistance(hit, signedDistance(box, point, hit.center_distance) - radius);
   }
+  /// Copies a measurement from the center of the region into `hit`.
   static void take(const Proximity& from_center, double radius, QueryHit& hit) {
     describe(hit, from_center);
     hit.center_distance = from_center.distance;

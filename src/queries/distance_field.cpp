@@ -16,7 +16,8 @@ namespace {
 using Vector = Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTinyBall = 1e-4;  // [m] radius of the sphere that stands for a point where a depth is measured
+constexpr double kTinyRadius =
+    1e-4;  // [m] a sphere of this radius replaces a point when the depth in a hull is measured
 
 /// What is nearest to a point.
 struct Nearest {
@@ -55,7 +56,7 @@ class PointMeter {
       : snapshot_(snapshot),
         narrow_phase_(narrow_phase),
         point_(narrow_phase.point()),
-        ball_(narrow_phase.solidOf(Shape::sphere(kTinyBall))) {
+        tiny_sphere_(narrow_phase.solidOf(Shape::sphere(kTinyRadius))) {
     const std::size_t count = snapshot.structure().bodies.size();
     in_scope_.reserve(count);
     for (std::uint32_t body = 0; body < count; ++body) in_scope_.push_back(inScope(snapshot, scope, body));
@@ -63,8 +64,9 @@ class PointMeter {
     forEachMap(snapshot, scope, [&](const PlacedMap& map) { maps_.push_back(map); });
   }
 
-  /// Returns what is nearest to a point, if it is at most `limit` [m] away. @param limit  > 0
-  /// @param deepest  [m] depths matter up to this value
+  /// Returns the signed distance and the gradient of what is nearest to a point, if it is at most `limit` [m] away.
+  /// @param limit    [m] > 0
+  /// @param deepest  [m] depths need to be known only up to this value
   Nearest nearestTo(const Vector& point, double limit, double deepest) {
     Nearest nearest;
     const Vector local = point - snapshot_.origin();
@@ -92,6 +94,8 @@ class PointMeter {
     std::sort(candidates_.begin(), candidates_.end());
   }
 
+  /// Measures one shape. If the narrow phase returns no depth for a point inside the shape: primitives use formulas,
+  /// hulls measure a tiny sphere, and meshes search their surface.
   void measure(const Vector& point, ProxyId proxy, double limit, double deepest, Nearest& nearest) const {
     const Structure& structure = snapshot_.structure();
     const std::uint32_t body = structure.body_of_proxy[proxy];
@@ -114,12 +118,12 @@ class PointMeter {
     } else if (const auto inner = depthInside(shape.shape, world_from_shape.inverse() * point)) {
       nearest.take(0.0 - inner->depth - shape.padding, world_from_shape.linear() * inner->outward);
     } else if (shape.shape.kind() == ShapeKind::hull) {
-      found = narrow_phase_.measure({*ball_, world_from_point, 0.0}, solid, 0.0);
-      nearest.take(std::isnan(found.depth) ? 0.0 - shape.padding : std::min(0.0, kTinyBall - found.depth),
+      found = narrow_phase_.measure({*tiny_sphere_, world_from_point, 0.0}, solid, 0.0);
+      nearest.take(std::isnan(found.depth) ? 0.0 - shape.padding : std::min(0.0, kTinyRadius - found.depth),
                    -found.normal);
     } else {
       found = narrow_phase_.measure({*point_, world_from_point, 0.0}, solid, deepest);
-      const double unknown = found.status == Measure::contained ? -deepest : 0.0;
+      const double unknown = found.status == Measure::contained ? -deepest : 0.0 - shape.padding;
       nearest.take(std::isnan(found.depth) ? unknown : 0.0 - found.depth, -found.normal);
     }
   }
@@ -135,13 +139,13 @@ class PointMeter {
       nearest.take(away, map.world_from_map.linear() * directionTo(nearestPoint(cube, in_map), in_map));
       return;
     }
-    const auto inner = depthInside(Shape::box(cube.sizes()), in_map - cube.center());
+    const auto inner = depthInside(Shape::box(cube.sizes(), {0.0, kQueryReach}), in_map - cube.center());
     nearest.take(0.0 - inner->depth, map.world_from_map.linear() * inner->outward);
   }
 
   const Snapshot& snapshot_;
   NarrowPhase& narrow_phase_;
-  const std::shared_ptr<const Solid> point_, ball_;
+  const std::shared_ptr<const Solid> point_, tiny_sphere_;
   std::vector<std::uint8_t> in_scope_;  // for each body
   std::vector<PlacedPlane> planes_;
   std::vector<PlacedMap> maps_;
@@ -167,8 +171,8 @@ class FieldWork {
   }
 
   DistanceField run() {
-    field_.distance.reserve(lattice_.size());
-    if (request_.gradients) field_.gradient.reserve(lattice_.size());
+    field_.distance.reserve(lattice_.pointCount());
+    if (request_.gradients) field_.gradient.reserve(lattice_.pointCount());
     double of_layer = kInfinity;  // [m] distance of the first point of the layer before this one
     for (std::uint32_t k = 0; k < lattice_.count[2]; ++k) {
       double of_row = of_layer;
@@ -185,19 +189,26 @@ class FieldWork {
   }
 
  private:
-  /// Adds the next point. @param beside  [m] distance of a point beside it; infinite: it is not known
-  /// @returns the distance of what is known
+  /// Adds the next point.
+  /// @param beside  [m] distance of a neighboring point; infinite if that distance is not known
+  /// @returns the distance [m] of the nearest known body, even if the point is unknown
   double addPoint(const std::array<std::uint32_t, 3>& index, double beside) {
     if (time_.isOver(TimeBudget::Step::slow)) {
-      addUnknown(Unknown::budget, "the deadline of the request passed before all points were measured");
+      addUnknown(Unknown::budget,
+                 "the deadline passed before all points were measured; allow more time or ask for fewer points");
       return kInfinity;
     }
     const Vector point = lattice_.world_from_lattice * (lattice_.resolution * Vector(index[0], index[1], index[2]));
-    // No distance changes faster than the point moves. The rest is for rounding.
+    // The distance of a neighbor bounds this distance: it changes by at most the resolution. The factor and 1e-9 cover
+    // rounding errors.
     const double limit =
         std::min(request_.max_distance, 1.000001 * (std::max(0.0, beside) + lattice_.resolution) + 1e-9);
-    const Nearest nearest = meter_.nearestTo(point, limit, request_.max_distance);
-    const double known = std::min(nearest.distance, limit);
+    Nearest nearest = meter_.nearestTo(point, limit, request_.max_distance);
+    // The value beside it may have been too small, for example inside an open mesh.
+    if (!(nearest.distance <= limit) && limit < request_.max_distance) {
+      nearest = meter_.nearestTo(point, request_.max_distance, request_.max_distance);
+    }
+    const double known = std::min(nearest.distance, request_.max_distance);
     if (has_doubts_ && known > 0.0 && noteUnseen(point, known)) return known;
     field_.distance.push_back(std::max(-request_.max_distance, std::min(known, request_.max_distance)));
     if (!request_.gradients) return known;
@@ -237,8 +248,8 @@ class FieldWork {
 
 void checkLength(double length, const char* what) {
   if (length > 0.0 && length <= kQueryReach) return;
-  throw Refusal(Code::out_of_range,
-                std::string(what) + " is " + text(length) + " m; it must be positive and at most " + text(kQueryReach));
+  throw Refusal(Code::out_of_range, std::string(what) + " is " + text(length) +
+                                        " m; it must be greater than 0 and at most " + text(kQueryReach) + " m");
 }
 
 }  // namespace
@@ -249,9 +260,16 @@ DistanceField distanceField(const Snapshot& snapshot, const Lattice& lattice, co
   checkScope(snapshot, scope);
   checkLength(lattice.resolution, "the resolution");
   checkLength(request.max_distance, "max_distance");
-  const Vector steps(lattice.count[0], lattice.count[1], lattice.count[2]);
+  constexpr std::uint64_t kMostPoints = 1u << 30;
+  const std::uint64_t row = lattice.count[0], layer = row * lattice.count[1];
+  if (layer > kMostPoints || layer * lattice.count[2] > kMostPoints) {
+    throw Refusal(Code::limit, "the lattice has " + std::to_string(row) + " x " + std::to_string(lattice.count[1]) +
+                                   " x " + std::to_string(lattice.count[2]) + " points; at most " +
+                                   std::to_string(kMostPoints) + " are allowed");
+  }
+  const Vector last(lattice.count[0] - 1.0, lattice.count[1] - 1.0, lattice.count[2] - 1.0);  // index of the last point
   checkQueryPoint(lattice.world_from_lattice.translation(), "the first point of the lattice");
-  checkQueryPoint(lattice.world_from_lattice * (lattice.resolution * steps), "the last point of the lattice");
+  checkQueryPoint(lattice.world_from_lattice * (lattice.resolution * last), "the last point of the lattice");
   return FieldWork(snapshot, lattice, request, narrow_phase, scope).run();
 }
 

@@ -76,7 +76,7 @@ TEST(CoreNarrowPhase, AMeasurementThatFailsHasNoListOfContacts) {
   }
 }
 
-// Claim: if the search for the gap ended before its bounds met, a distance is what was proved, not what was found.
+// Claim: if the search ends while the bounds of the gap still differ, the distance is computed from the lower bound.
 TEST(ConvexPair, HasTheProvedDistanceIfTheSearchEndedEarly) {
   const ConvexSolid ball(Shape::sphere(0.1));
   const Pose here = Pose::Identity(), there(Eigen::Translation3d(1.0, 0.0, 0.0));

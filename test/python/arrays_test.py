@@ -113,9 +113,18 @@ class Arrays(unittest.TestCase):
         kind = with_arrays(srv.QueryBatchRequest)
         for field, value in (("sphere_center", numpy.zeros((2, 4))), ("sphere_center", numpy.zeros(3)),
                              ("sphere_radius", numpy.zeros((2, 1))), ("sphere_radius", ["a"]), ("limit", -1),
-                             ("sphere_radius", numpy.zeros(2, complex)), ("include", [1]), ("as_body", 1)):
+                             ("sphere_radius", numpy.zeros(2, complex)),
+                             ("box_size", numpy.zeros(3)), ("include", [1]), ("as_body", 1)):
             with self.assertRaisesRegex(genpy.SerializationError, "QueryBatchRequest: " + field):
                 written(kind(**{field: value}))
+
+    def test_with_numbers_out_of_range_are_not_written(self):
+        kind = with_arrays(msg.Pairs)
+        for numbers in ([2**32], [-1]):
+            with self.assertRaisesRegex(genpy.SerializationError, "Pairs: first: .* uint32"):
+                written(kind(first=numpy.array(numbers)))
+        self.assertEqual(kind().deserialize(written(kind(first=numpy.array([2**32 - 1])))).first.tolist(), [2**32 - 1])
+        self.assertEqual(kind().deserialize(written(kind(gap=numpy.array([1, 2])))).gap.tolist(), [1.0, 2.0])
 
     def test_have_a_row_for_each_point(self):
         message = random_message(random.Random(2), msg.Distances)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""The service ~query_batch beside a running node. The services for single queries, which have tests of their own, say what
-the answers must be."""
+"""The services ~query_batch and ~distance_field of a running node. The answers must equal those of the services for single
+queries, which have tests of their own."""
 import math
 import threading
 import time
@@ -100,6 +100,9 @@ class Batches(unittest.TestCase):
             self.assertEqual(batch.response.header.frame_id, options.get("frame", "world"))
             self.assertEqual(list(batch.response.names), sorted(set(batch.response.names)))
 
+    def test_one_body_may_be_a_text(self):
+        self.assertEqual(len(self.proximity.query_batch(bodies="obstacle/part3")), 1)
+
     def test_arrays_that_no_question_needs_are_empty(self):
         response = self.proximity.query_batch((self.points(100), 0.3)).response
         self.assertGreater(len(response.body), 10)
@@ -178,7 +181,8 @@ class Batches(unittest.TestCase):
         self.assertIn("max_time", batch.text(2999))
         self.assertEqual(len(batch.response.texts), 3000)
 
-    # Claim: each point has the distance of a single exact query; its gradient is a unit vector, or 0 where it is cut.
+    # Claim: each point has the distance that a single exact query returns. Each gradient is a unit vector, or 0 where the
+    # distance is cut at max_distance.
     def test_a_distance_field_has_the_distances_of_single_queries(self):
         for options in ({}, {"frame": "tool", "exclude": "obstacle/part1*"}):
             field = self.proximity.distance_field((-1, -0.9, -0.8), (1.9, 1.5, 1.0), 0.25, 0.6, gradients=True, **options)
@@ -196,7 +200,7 @@ class Batches(unittest.TestCase):
                 inside += found < 0.0
             self.assertGreater(inside, 5)
 
-    def test_a_distance_field_of_one_ball_is_that_of_a_ball(self):
+    def test_the_field_of_one_sphere_is_the_distance_from_the_sphere(self):
         ask = lambda **options: self.proximity.distance_field((20, 0, 0), (2, 0, 0), 0.5, 5.0, include="obstacle/lone",
                                                               **options)
         before = self.proximity.query_batch(keep=30.0).response.lease
@@ -224,12 +228,15 @@ class Batches(unittest.TestCase):
         self.assertEqual(numpy.isnan(late.distance).sum(), late.unknown)
         self.assertTrue(late.text)
 
-    # Claim: a query is answered before four long requests that came earlier, although the node has only one thread for
-    # each of the two kinds here. A busy machine may start the query so late that it shows nothing; then once more.
+    # Claim: a query is answered before four long requests that were sent earlier. The node has one query thread and one
+    # batch thread. On a busy machine the query may start after the long requests have ended; then the test tries again.
     def test_queries_do_not_wait_for_long_requests(self):
+        clients = [Proximity("/proximity", timeout=60.0) for _ in range(4)]
+        for client in clients:  # opens the connection
+            self.assertEqual(client.distance_field((0, 0, 0), (0, 0, 0), 1.0, 1.0).distance.size, 1)
         for _ in range(5):
             done = []
-            requests = [threading.Thread(target=self.ask_for_long, args=(done,)) for _ in range(4)]
+            requests = [threading.Thread(target=self.ask_for_long, args=(client, done)) for client in clients]
             for request in requests:
                 request.start()
             time.sleep(0.2)
@@ -242,9 +249,8 @@ class Batches(unittest.TestCase):
                 return
         self.fail("the query was never answered before the long requests")
 
-    def ask_for_long(self, done):
-        with Proximity("/proximity", timeout=60.0) as other:
-            done.append(other.distance_field((-2, -2, -2), (3.9, 3.9, 3.9), 0.04, 5.0, gradients=True, max_time=10.0))
+    def ask_for_long(self, client, done):
+        done.append(client.distance_field((-2, -2, -2), (3.9, 3.9, 3.9), 0.04, 5.0, gradients=True, max_time=10.0))
 
 
 if __name__ == "__main__":

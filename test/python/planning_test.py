@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Plans with examples/plan.py for a Panda in the map of a building, beside a running node, and plays the plan past the
-node. Skipped without the data."""
+"""Plans for a Panda in the map of a building with examples/plan.py. Then publishes the plan as joint states, and expects no
+contact in ~distances. Skipped if the data do not exist."""
 import os
 import subprocess
 import sys
+import time
 import unittest
 
 import numpy
@@ -39,17 +40,27 @@ class Drivers:
     """Publishes joint states, as the drivers of the robot would. Holds the newest state until the next one is set."""
 
     def __init__(self, state):
-        self.state = state
-        self._publisher = rospy.Publisher("joint_states", JointState, queue_size=1)
+        self._publisher = rospy.Publisher("joint_states", JointState, queue_size=10)
+        self.set(state)
         self._timer = rospy.Timer(rospy.Duration(0.02), self._publish)
 
+    def set(self, state):
+        """Returns the time from which on all published states are this one."""
+        self._state = list(state)
+        time.sleep(0.001)  # a state that the timer is about to publish has an earlier stamp
+        return self._publish(None)
+
     def _publish(self, _):
-        state = JointState(name=JOINTS, position=list(self.state))
+        state = JointState(name=JOINTS, position=self._state)
         state.header.stamp = rospy.Time.now()
         self._publisher.publish(state)
+        return state.header.stamp
 
 
-@unittest.skipUnless(os.path.exists(os.path.join(DATA, "octomap", "geb079.bt")), "the data of the robots do not exist")
+MAP = os.path.join(DATA, "octomap", "geb079.bt")
+
+
+@unittest.skipUnless(os.path.exists(MAP), MAP + " does not exist; set HGRID_TEST_DATA")
 class Planning(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -83,7 +94,7 @@ class Planning(unittest.TestCase):
         for process in cls.processes:
             process.wait()
 
-    # Claim: the way that the planner finds has no contact when the robot goes it.
+    # Claim: the node sees no contact while the robot follows the plan.
     def test_a_way_that_was_planned_has_no_contact_when_it_is_played(self):
         straight = self.proximity.check_edges(JOINTS, [START], [GOAL])
         self.assertTrue(straight.hit[0], "the straight way is free, so there is nothing to plan")
@@ -95,20 +106,19 @@ class Planning(unittest.TestCase):
         for begin, end in zip(way, way[1:]):
             steps = int(numpy.ceil(numpy.linalg.norm(end - begin) / 0.1))
             for step in range(steps):
-                self.drivers.state = begin + (end - begin) * (step + 1) / steps
-                distances = self.next_distances()
+                distances = self.distances_at(begin + (end - begin) * (step + 1) / steps)
                 self.assertTrue(distances.usable)
                 self.assertEqual(distances.longest_wait, 0)
                 self.assertNotIn(MeasureStatus.NOT_MEASURED, distances.status)
                 self.assertEqual(contacts_of(distances), [])
                 seen += len(distances.status)
         self.assertGreater(seen, 100)
-        self.drivers.state = START + straight.at[0] * (numpy.array(GOAL) - START)
-        self.assertIn(tuple(sorted(straight.pair(0))), contacts_of(self.next_distances()))
+        contact = START + straight.at[0] * (numpy.array(GOAL) - START)
+        self.assertIn(tuple(sorted(straight.pair(0))), contacts_of(self.distances_at(contact)))
 
-    def next_distances(self):
-        """Returns a message of ~distances about the present joint state."""
-        since = rospy.Time.now() + rospy.Duration(0.05)
+    def distances_at(self, state):
+        """Moves the robot to a state. Returns a message of ~distances about this state."""
+        since = self.drivers.set(state) + rospy.Duration(0.005)
         while True:
             distances = self.proximity.distances()
             if distances.header.stamp > since:

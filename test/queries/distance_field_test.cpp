@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Compares distance fields of random worlds with the reference for distances, which shares no code with the product.
+// Compares distance fields of random worlds with a reference implementation that shares no code with the library.
 #include "hgrid_proximity/queries/distance_field.h"
 
 #include <gtest/gtest.h>
@@ -134,7 +134,8 @@ TEST(DistanceField, EqualsTheSignedDistanceOfTheNearestShape) {
   EXPECT_GT(far, 200);
 }
 
-// Without hulls, whose depth is not known, the gradient of one body alone is that of its distance.
+// Claim: each gradient equals the central differences of the distance. Hulls are left out, because this narrow phase
+// returns no depth inside them.
 TEST(DistanceField, GradientsAreCentralDifferences) {
   int inside = 0, outside = 0, corners = 0;
   for (unsigned seed = 1; seed <= 40; ++seed) {
@@ -153,7 +154,8 @@ TEST(DistanceField, GradientsAreCentralDifferences) {
           distanceField(*world.snapshot, around, {3.0, false}, *narrowPhase(), {}).distance;
       const Eigen::Vector3d difference =
           Eigen::Vector3d(near[14] - near[12], near[16] - near[10], near[22] - near[4]) / (2 * kStep);
-      // Where two surfaces are equally near, the gradient jumps; its differences are then shorter than 1.
+      // Where two surfaces are equally near, the gradient is not continuous, and the central difference is shorter
+      // than 1.
       if (std::abs(difference.norm() - 1.0) > 1e-6) {
         ++corners;
         continue;
@@ -242,6 +244,59 @@ TEST(DistanceField, IsUnknownWhereSomethingUnseenMayBeNearer) {
   EXPECT_EQ(distanceField(*snapshot, line, {20, false}, *narrowPhase(), without).unknown, 0u);
 }
 
+/// Returns a field along x from x = `from`, with this body at the origin.
+DistanceField fieldAlongX(const Body& body, double from, double resolution, std::uint32_t count) {
+  Scene scene{SceneOptions{}};
+  put(scene, body, at(0));
+  Lattice line;
+  line.world_from_lattice = at(from);
+  line.resolution = resolution;
+  line.count = {count, 1, 1};
+  return distanceField(*scene.commit(Time{1}, {}), line, {5.0, true}, *narrowPhase(), {});
+}
+
+// Claim: inside an open mesh the distance is 0. That does not make the distances of the following points too small.
+TEST(DistanceField, IsExactBehindTheOpeningOfAMesh) {
+  Body box = obstacle("box");
+  TriangleMesh mesh = boxMesh({1, 1, 1});
+  const auto is_front = [&](const std::array<std::uint32_t, 3>& triangle) {
+    return std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t i) { return mesh.vertices[i].x() > 0.0; });
+  };
+  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), is_front), mesh.triangles.end());
+  ASSERT_EQ(mesh.triangles.size(), 10u);
+  box.shapes.push_back(solidShape(meshOf(mesh), Pose::Identity(), 0.0));
+  const DistanceField field = fieldAlongX(box, -0.9, 0.1, 25);
+  int inside = 0;
+  for (std::size_t i = 0; i < 25; ++i) {
+    const double x = -0.9 + 0.1 * double(i);
+    if (field.distance[i] == 0.0) {
+      EXPECT_TRUE(x > -0.51 && x < 0.51) << x;
+      ++inside;
+    } else if (x > 0.51) {
+      EXPECT_NEAR(field.distance[i], std::hypot(x - 0.5, 0.5), 1e-9) << x;  // to the edges of the opening
+    } else if (x < -0.51) {
+      EXPECT_NEAR(field.distance[i], -0.5 - x, 1e-9) << x;
+    }
+  }
+  EXPECT_GT(inside, 3);
+}
+
+TEST(DistanceField, OnTheSurfaceOfAPaddedMeshIsMinusThePadding) {
+  Body box = obstacle("box");
+  box.shapes.push_back(solidShape(meshOf(boxMesh({1, 1, 1})), Pose::Identity(), 0.1));
+  const DistanceField field = fieldAlongX(box, -0.75, 0.25, 4);
+  const double expected[] = {0.15, -0.1, -0.35, -0.6};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(field.distance[i], expected[i], 1e-9) << i;
+}
+
+TEST(DistanceField, MeasuresABoxInPlaceOfAShapeThatCouldNotBeRead) {
+  Body ball = obstacle("ball");
+  ball.shapes.push_back(shapeOf(Shape::sphere(0.5)));  // it has no solid
+  const DistanceField field = fieldAlongX(ball, 0.0, 0.4, 3);
+  const double expected[] = {-0.5, -0.1, 0.3};
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(field.distance[i], expected[i], 1e-6) << i;
+}
+
 TEST(DistanceField, StopsAtItsDeadline) {
   const FieldWorld world(1, kAllKinds);
   QueryScope scope;
@@ -253,7 +308,7 @@ TEST(DistanceField, StopsAtItsDeadline) {
   EXPECT_EQ(field.because, Unknown::budget);
 }
 
-TEST(DistanceField, RefusesLengthsThatAreNotPositive) {
+TEST(DistanceField, RefusesInvalidLattices) {
   FieldWorld world(1, {ShapeKind::sphere});
   const auto code = [&](double resolution, double most) {
     world.lattice.resolution = resolution;
@@ -264,6 +319,11 @@ TEST(DistanceField, RefusesLengthsThatAreNotPositive) {
   EXPECT_EQ(code(0.1, 0.0), Code::out_of_range);
   EXPECT_EQ(code(0.1, -INFINITY), Code::out_of_range);
   EXPECT_EQ(code(1e10, 1.0), Code::out_of_range);
+  world.lattice.count = {1u << 31, 1u << 31, 2};
+  EXPECT_EQ(code(0.1, 1.0), Code::limit);
+  world.lattice.count = {1, 1, 1};
+  world.lattice.world_from_lattice = Pose::Identity();
+  EXPECT_EQ(code(1e10, 1.0), Code::ok);
   world.lattice.world_from_lattice.translation().x() = std::nan("");
   EXPECT_EQ(code(0.1, 1.0), Code::nonfinite);
 }

@@ -14,8 +14,9 @@ namespace hgrid {
 /// denormals.
 ///
 /// The promise "no missed pair" depends on this environment, and another library in the process may have changed it.
-/// Queries of a microsecond use this class, so it does nothing if the environment is the default. On x86-64, it only
-/// sets the control register of SSE, because all numbers of type double are computed there.
+/// Some queries take only about 1 us, so the cost of this class matters. On x86-64, it changes only the control
+/// register of SSE (MXCSR), because SSE computes all operations on type double, and only if that register is not the
+/// default.
 class DefaultFloatEnvironment {
  public:
   DefaultFloatEnvironment(const DefaultFloatEnvironment&) = delete;
@@ -30,7 +31,8 @@ class DefaultFloatEnvironment {
   }
 
  private:
-  static constexpr unsigned kDefault = 0x1f80, kFlags = 0x3f;  // no exception traps; the flags say which were raised
+  static constexpr unsigned kDefault = 0x1f80;  // MXCSR: round to nearest, denormals kept, no exception traps
+  static constexpr unsigned kFlags = 0x3f;      // MXCSR: bits that record past exceptions; ignored
   const unsigned before_;
 #else
   DefaultFloatEnvironment() {

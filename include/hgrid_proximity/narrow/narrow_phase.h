@@ -35,13 +35,16 @@ struct Proximity {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  ///< stands for "not known"
 
   Measure status = Measure::not_measured;  ///< what the measurement found
-  double distance = kUnknown;              ///< [m] 0 in contact; infinite if larger than the `up_to` of measure()
+  /// [m] 0 in contact; infinite if larger than the `up_to` of measure(). If the solver ended before it converged, this
+  /// is the lower bound that it proved, and the nearest points may be farther apart than `distance`.
+  double distance = kUnknown;
   /// [m, world] Nearest point of the first shape; in contact its deepest point.
   Eigen::Vector3d on_first = Eigen::Vector3d::Constant(kUnknown);
   /// [m, world] Nearest point of the second shape; in contact its deepest point.
   Eigen::Vector3d on_second = Eigen::Vector3d::Constant(kUnknown);
   Eigen::Vector3d normal = Eigen::Vector3d::Constant(kUnknown);  ///< unit vector from the first to the second shape
-  /// [m] Penetration depth. Moving the second shape this far along the normal separates the two.
+  /// [m] Penetration depth. Moving the second shape this far along the normal separates the two. Of a point inside a
+  /// closed mesh: its distance from the surface. If parts of the mesh overlap, the point may then still be inside.
   double depth = kUnknown;
 };
 

@@ -46,8 +46,10 @@ struct QueryHit {
   /// mesh, or a body with other shapes that are penetrated deeper, may need a longer move. The depth of two boxes is
   /// always known. The depth is NaN in these cases:
   /// - The two are apart.
-  /// - The query is inside a mesh, or the narrow phase returns no depth. The depth of a point inside a closed mesh is
-  ///   known; that of a sphere, if its center is at most its radius from the surface.
+  /// - The query is inside a mesh. Exceptions, for exact queries and closed meshes: the depth of a point is known in
+  ///   nearest(), unless it is larger than max_distance. The depth of a sphere is known if the center of the sphere is
+  ///   at most one radius away from the surface of the mesh.
+  /// - The narrow phase returns no depth.
   /// - The axis of a segment touches the box, or the hit is a cell that a segment touches.
   double depth = kUnknown;
   /// [m] Distance of the box or shape from the center of the query, or from the axis of a segment. In nearest() to a

@@ -14,8 +14,8 @@ namespace hgrid {
 /// Stands for "no body" in messages with lists of bodies.
 inline constexpr std::uint32_t kNoBody = 4294967295u;
 
-/// Replaces indices of bodies by indices into `names`. kNoBody remains.
-/// @param names  receives the names of all these bodies, each once, sorted
+/// Replaces indices of bodies in the snapshot by indices into `names`. Does not replace kNoBody.
+/// @param names  must be empty; receives the names of all bodies in `lists`, each once, sorted
 void nameBodies(const BodyList& bodies, std::initializer_list<std::vector<std::uint32_t>*> lists,
                 std::vector<std::string>& names);
 

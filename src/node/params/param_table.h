@@ -328,8 +328,8 @@ void visitParams(Visitor& v, Params& p) {
   v.integer("query_threads", p.query_threads, 1, 64,
             "number of threads that answer queries; a query waits only while all of them are busy");
   v.integer("batch_threads", p.batch_threads, 1, 64,
-            "number of threads that answer requests with many questions (query_batch, distance_field, check_states, "
-            "check_edges), which may take seconds; queries do not wait for them");
+            "number of threads that answer requests with many questions (~query_batch, ~distance_field, ~check_states, "
+            "~check_edges). Such a request may take seconds. Other queries have threads of their own (~query_threads)");
   v.number(
       "lease_max", p.lease_max, "s", 0.0, 3600.0,
       "longest time for which a request can make the node keep a tick (a lease), so that later requests are answered "

@@ -27,6 +27,13 @@ void BatchAnswers::expect(std::size_t count, bool segments, bool bodies) {
 }
 
 void BatchAnswers::add(const QueryAnswer& answer) {
+  if (!answer.examined_all) {  // there may be nearer hits than those that were found
+    response_.totals.push_back(0);
+    addVerdict(
+        Code::ok, Verdict::unknown, Unknown::budget,
+        "max_time was over before the question was answered; raise max_time (at most 10 s) or ask fewer questions");
+    return;
+  }
   for (const QueryHit& hit : answer.hits) addHit(hit);
   response_.totals.push_back(static_cast<std::uint32_t>(answer.total));
   if (answer.verdict == Verdict::clear && !outdated_.empty()) {

@@ -15,18 +15,20 @@ namespace hgrid {
 class BatchAnswers {
  public:
   /// @param question   what all questions have in common; must outlive this object
-  /// @param outdated   why no answer can be CLEAR; empty: answers can be
+  /// @param outdated   sentence that replaces each CLEAR by UNKNOWN; empty: the tick is recent enough
   /// @param age_since  [s] time since the snapshot was made
   BatchAnswers(const PreparedQuery& question, std::string outdated, double age_since,
                msg::QueryBatch::Response& response);
 
-  /// Makes room for answers. @param segments, bodies  whether there are questions of these kinds
+  /// Reserves memory for `count` answers. Must be called before add().
+  /// @param segments, bodies  whether the batch asks about segments, about bodies; if not, `along`, `own_point` stay
+  /// empty
   void expect(std::size_t count, bool segments, bool bodies);
   /// Adds the answer to the next question.
   void add(const QueryAnswer& answer);
   /// Adds that the next question was refused.
   void refuse(Code code, std::string sentence);
-  /// Completes the response after the last question.
+  /// Fills `names`, and makes `body` refer to it. Call this once, after the last question.
   void finish();
 
  private:

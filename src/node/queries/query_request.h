@@ -24,11 +24,11 @@ struct QueryOptions {
   const std::string& frame;                 ///< frame of the geometry; empty: the world frame
   const std::vector<std::string>& include;  ///< see QueryScope
   const std::vector<std::string>& exclude;  ///< see QueryScope
-  std::uint32_t limit;                      ///< 0: ~max_hits, which is also the upper limit
-  bool exact;
-  bool respect_allowed;
-  const std::string& as_body;  ///< name of the body whose allowed pairs are left out if respect_allowed is true
-  std::optional<std::chrono::steady_clock::time_point> deadline;
+  std::uint32_t limit;                      ///< largest number of hits; 0, or more than ~max_hits, means ~max_hits
+  bool exact;                               ///< true: measure the shapes of bodies; false: only their boxes
+  bool respect_allowed;        ///< true: leave out as_body and the bodies whose pair with as_body is switched off
+  const std::string& as_body;  ///< name of a body; read only if respect_allowed is true, and then required
+  std::optional<std::chrono::steady_clock::time_point> deadline;  ///< when the query stops; nullopt: no deadline
 };
 
 /// A request for queries, prepared for a snapshot.
@@ -45,10 +45,13 @@ struct PreparedQuery {
   QueryShape shapeOf(const ::hgrid_proximity::Shape& shape, const Params& params) const;
 };
 
-/// Prepares a request. @param tick  it has a snapshot, and must outlive the result
-/// @param narrow_phase  used if the request is exact; must outlive the result
-/// @throws Refusal unknown_id for a pattern of `include` that can match no body, if no body remains, and for an unknown
-/// `as_body`; bad_id, limit for patterns; unknown_frame, extrapolation for the frame
+/// Checks the options of a request and looks up its frame.
+/// @param tick          must have a snapshot and must outlive the result
+/// @param narrow_phase  used if options.exact is true; must outlive the result
+/// @throws Refusal unknown_id if a glob of `include` can match no body, if `exclude` leaves no body, or if as_body is
+/// unknown
+/// @throws Refusal bad_id if as_body is empty but required, or if a glob is too long; limit if there are too many globs
+/// @throws Refusal unknown_frame or extrapolation if the pose of the frame is not known
 PreparedQuery prepare(const QueryOptions& options, const Tick& tick, const Params& params,
                       const TransformLookup& transforms, const NarrowPhase& narrow_phase);
 

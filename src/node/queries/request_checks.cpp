@@ -26,7 +26,8 @@ void checkPatterns(const std::vector<std::string>& patterns) {
 std::optional<std::chrono::steady_clock::time_point> deadlineOf(double max_time) {
   constexpr double kLongest = 1e6;  // [s] a longer time counts as no limit
   if (!(max_time >= 0.0)) {
-    throw Refusal(Code::out_of_range, "max_time is " + text(max_time) + " s; it must be 0 (no limit) or positive");
+    throw Refusal(Code::out_of_range,
+                  "max_time is " + text(max_time) + " s; it must be positive, or 0 for the default");
   }
   if (max_time == 0.0 || max_time > kLongest) return std::nullopt;
   using Clock = std::chrono::steady_clock;
@@ -41,7 +42,8 @@ std::chrono::steady_clock::time_point batchDeadlineOf(double max_time) {
 void checkBatch(const char* what, std::size_t count, const Params& params) {
   if (count <= static_cast<std::size_t>(params.max_batch)) return;
   throw Refusal(Code::limit, "the request has " + std::to_string(count) + " " + what + "; at most " +
-                                 std::to_string(params.max_batch) + " are allowed (~max_batch)");
+                                 std::to_string(params.max_batch) +
+                                 " are allowed (~max_batch). Split the request, or raise ~max_batch");
 }
 
 }  // namespace hgrid

@@ -21,8 +21,8 @@ void checkPatterns(const std::vector<std::string>& patterns);
 std::optional<std::chrono::steady_clock::time_point> deadlineOf(double max_time);
 
 /// Returns when the time of a request with many questions is over.
-/// @param max_time  [s] 0: the longest time, which is 10 s
-/// @throws Refusal out_of_range unless max_time is 0 or positive
+/// @param max_time  [s] 0, or more than 10, means 10
+/// @throws Refusal out_of_range if max_time is negative or NaN
 std::chrono::steady_clock::time_point batchDeadlineOf(double max_time);
 
 /// Checks the number of questions of a request. @param what  names the questions in the error sentence

@@ -12,16 +12,17 @@
 
 namespace hgrid {
 
-/// Whether a request with a header and a lease names the tick that it is about. Then the age of the tick does not
-/// matter.
+/// Returns whether a request names its tick, by a lease or by a time in header.stamp. The age of a named tick does not
+/// matter, so its answers never become UNKNOWN (OUTDATED).
 template <class Request>
 bool namesItsTick(const Request& request) {
   return request.lease.sequence != 0 || namesItsTime(request.header.stamp);
 }
 
-/// Makes the response from the tick that the request asks for by its lease or by its stamp.
-/// @throws Refusal conflict if it has both; what Leases::find() and TickHistory::at() throw; not_ready before the first
-/// tick
+/// Chooses the tick that the lease or the stamp of a request names, or else the newest tick, and answers from it.
+/// @throws Refusal conflict if the request has both a lease and a stamp
+/// @throws Refusal not_ready before the first tick
+/// @throws Refusal in the same cases as Leases::find() and TickHistory::at()
 template <class Service>
 void answerFromAskedTick(ServiceCall<Service>& call, Leases& leases, const TickHistory& history) {
   const auto& request = call.request;
@@ -29,8 +30,9 @@ void answerFromAskedTick(ServiceCall<Service>& call, Leases& leases, const TickH
   std::shared_ptr<const Tick> tick = leases.find(request.lease, call.tick.get());
   if (namesItsTime(request.header.stamp)) {
     if (request.lease.sequence != 0) {
-      throw Refusal(Code::conflict, "the request names tick " + std::to_string(request.lease.sequence) +
-                                        " in its lease and a time in header.stamp; set one of them to 0");
+      throw Refusal(Code::conflict, "lease.sequence is " + std::to_string(request.lease.sequence) +
+                                        " and header.stamp is " + text(request.header.stamp.toSec()) +
+                                        " s; a request may have only one of them. Set the other one to 0");
     }
     tick = history.at(request.header.stamp, tick);
   }

@@ -25,7 +25,7 @@ void checkLengths(const char* first, std::size_t of_first, const char* second, s
   if (of_first == of_second) return;
   throw Refusal(Code::out_of_range, std::string(first) + " has " + std::to_string(of_first) + " elements and " +
                                         second + " has " + std::to_string(of_second) +
-                                        "; both must have one for each question");
+                                        "; the two must have equally many elements");
 }
 
 /// Checks the lengths of all arrays. Returns the number of questions.
@@ -53,8 +53,7 @@ class Questions {
     for (std::size_t i = 0; i < count; ++i) {
       if (std::chrono::steady_clock::now() >= question_.scope.deadline) {
         QueryAnswer none;
-        none.because = Unknown::budget;
-        none.reason = "the time of the request (max_time) was over before this question";
+        none.examined_all = false;
         answers_.add(none);
         continue;
       }
@@ -102,7 +101,8 @@ void BatchService::answer(ServiceCall<msg::QueryBatch>& call) {
   if (scope.limit > kMostHits / std::max<std::size_t>(count, 1)) {
     throw Refusal(Code::limit, "the request has " + std::to_string(count) + " questions with up to " +
                                    std::to_string(scope.limit) + " hits each; a response has at most " +
-                                   std::to_string(kMostHits) + " hits. Ask fewer questions at a time, or lower limit");
+                                   std::to_string(kMostHits) +
+                                   " hits. Send fewer questions in a request, or lower limit");
   }
   const Snapshot& snapshot = question.snapshot;
   const Pose& world_from_frame = question.world_from_frame;

@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::size_t kMostPoints = 1000000;
 
-/// Returns how many points a side of the lattice has. A side that is a multiple of the resolution ends with a point.
+/// Returns the number of points along one side of the lattice. If `size` is a multiple of the resolution, the last
+/// point is at the end of the side.
 std::uint32_t pointsAlong(const char* axis, double size, double resolution) {
   if (!(size >= 0.0 && std::isfinite(size))) {
     throw Refusal(Code::out_of_range,
@@ -28,9 +29,9 @@ std::uint32_t pointsAlong(const char* axis, double size, double resolution) {
   }
   const double steps = size / resolution;
   if (!(steps < static_cast<double>(kMostPoints))) {
-    throw Refusal(Code::limit, std::string("size.") + axis + " is " + text(size) + " m and the resolution is " +
+    throw Refusal(Code::limit, std::string("size.") + axis + " is " + text(size) + " m and resolution is " +
                                    text(resolution) + " m; a lattice has at most " + std::to_string(kMostPoints) +
-                                   " points");
+                                   " points. Increase the distance of the points (resolution) or reduce size");
   }
   return static_cast<std::uint32_t>(std::floor(steps + 1e-6)) + 1;
 }
@@ -44,13 +45,14 @@ Lattice latticeOf(const msg::DistanceField::Request& request) {
   lattice.count = {pointsAlong("x", request.size.x, request.resolution),
                    pointsAlong("y", request.size.y, request.resolution),
                    pointsAlong("z", request.size.z, request.resolution)};
-  // Each count is at most 1000000, so two of them fit into 64 bits, but not always three.
+  // Each count is at most 1000000. The product of two counts fits into 64 bits, but the product of three may not.
   const std::size_t layer = std::size_t{lattice.count[0]} * lattice.count[1];
   if (layer > kMostPoints || layer * lattice.count[2] > kMostPoints) {
     throw Refusal(Code::limit, "the lattice has " + std::to_string(lattice.count[0]) + " x " +
                                    std::to_string(lattice.count[1]) + " x " + std::to_string(lattice.count[2]) +
                                    " points; at most " + std::to_string(kMostPoints) +
-                                   " are allowed. Choose a larger resolution, or ask for parts of it");
+                                   " are allowed. Increase the distance of the points (resolution), or split the "
+                                   "lattice into several requests");
   }
   return lattice;
 }

@@ -22,8 +22,8 @@ class AnswerTick {
   double age() const { return age_; }
   /// Returns the snapshot of the tick. @throws Refusal not_ready before the first tick and while there is no world
   const Snapshot& snapshot() const;
-  /// Returns why an answer about the present cannot be CLEAR: the tick is older than ~valid_for. Empty: it is not.
-  /// There must be a tick.
+  /// Returns why an answer about the present cannot be CLEAR, as a sentence: the tick is older than ~valid_for. Returns
+  /// an empty string if the tick is recent enough. There must be a tick.
   std::string whyOutdated() const;
 
  private:
