@@ -272,7 +272,7 @@ TEST(DistanceField, IsExactBehindTheOpeningOfAMesh) {
     if (field.distance[i] == 0.0) {
       EXPECT_TRUE(x > -0.51 && x < 0.51) << x;
       ++inside;
-    } else if (x > 0.51) {
+    } else if (x > 0.49) {
       EXPECT_NEAR(field.distance[i], std::hypot(x - 0.5, 0.5), 1e-9) << x;  // to the edges of the opening
     } else if (x < -0.51) {
       EXPECT_NEAR(field.distance[i], -0.5 - x, 1e-9) << x;
