@@ -27,7 +27,7 @@ BRICKS = "maps/static_grid_bricks.h"
 LINE = "maps/static_grid_line.h"
 MAPS = "world/map_pairs.cpp"
 PLANES = "world/plane_pairs.cpp"
-SPHERE = "queries/sphere_question.cpp"
+AROUND_POINT = "queries/around_point.h"
 CLOUD = "maps/cloud_cells.cpp"
 PAST = "history/history.cpp"
 PAST_PARTS = "history/kept_parts.cpp"
@@ -255,9 +255,9 @@ CORE = [
      "known.up_to < up_to || known.box != box", "known.up_to < up_to"),
     ("the sweep between ticks ignores the motion of the map itself", MAPS,
      "boxInMap(map.mapFromWorldBefore(), from", "boxInMap(map.map_from_world, from"),
-    ("space beyond the extent of a map counts as known", SPHERE,
+    ("space beyond the extent of a map counts as known", AROUND_POINT,
      "return unmapped.extent.contains(grown(Eigen::AlignedBox3d(in_map.center), radius)) &&", "return"),
-    ("a query trusts a stale map as much as a fresh one", SPHERE,
+    ("a query trusts a stale map as much as a fresh one", AROUND_POINT,
      "region_.radius + map.reach + touchSlack(region_", "region_.radius + touchSlack(region_"),
     ("a cell that a sensor sees again expires too early", CLOUD,
      "newest = std::max(newest, (known++)->stamp);", "newest = (known++)->stamp;"),
