@@ -15,8 +15,10 @@ using Vector = Eigen::Vector3d;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // [m] Largest accepted difference between the gap and the distance of the two nearest points, besides rounding.
 constexpr double kDisagreement = 1e-6;
-// [m] If the lower and the upper bound of a gap differ by less than this plus the rounding error, they count as equal.
-constexpr double kUnsettled = 1e-9;
+// Bounds of a gap count as equal if they differ by at most 1e-6 m, the promised precision of distances, plus this part
+// of the size of the solids and of their distance. Among shapes of kilometers, searches end before their bounds are
+// equal.
+constexpr double kUnsettled = 1e-7;
 // [m] To verify a depth, the solids are moved apart by the depth plus this length. Then they must be apart.
 constexpr double kHair = 1e-6;
 
@@ -90,9 +92,9 @@ std::optional<Proximity> answerByReach(const Side& a, const Side& b, const Pose&
 
 Proximity answerByGap(const Side& a, const Side& b, const Pose& a_from_b, const CoreGap& gap, double up_to) {
   const double around = a.around + b.around;
-  const double rounding = 1e-12 * (a.solid.reach() + b.solid.reach() + a_from_b.translation().norm());
+  const double size = a.solid.reach() + b.solid.reach() + a_from_b.translation().norm(), rounding = 1e-12 * size;
   // If the search ended before the two bounds were equal, only the lower bound is certain.
-  const double proved = gap.upper - gap.lower > kUnsettled + rounding ? gap.lower : gap.upper;
+  const double proved = gap.upper - gap.lower > kDisagreement + kUnsettled * size ? gap.lower : gap.upper;
   Proximity result = answerOf(Measure::apart, std::max(0.0, proved - around));
   if (result.distance > up_to) return answerOf(Measure::apart, kInfinity);
   const Vector between = gap.on_second - gap.on_first;

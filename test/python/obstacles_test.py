@@ -18,7 +18,7 @@ from hgrid_proximity import obstacles
 from hgrid_proximity.client import Proximity
 from hgrid_proximity.errors import Refused
 from hgrid_proximity.msg import Bodies, Poses, Status
-from hgrid_proximity.poses import PosesPublisher, _Bytes
+from hgrid_proximity.poses import PosesPublisher, _Poses
 from hgrid_proximity.srv import ExplainPair
 from moving_ball import Ball
 
@@ -247,7 +247,7 @@ class Obstacles(unittest.TestCase):
 
     def test_bytes_of_poses_are_those_of_the_message(self):
         """Claim: PosesPublisher writes the bytes that genpy writes for the same message."""
-        array = _Bytes(names_version=3, names=["a", "b"])
+        array = _Poses(names_version=3, names=["a", "b"])
         array.header.frame_id, array.header.stamp = "world", rospy.Time(1, 2)
         plain = Poses(names_version=3, names=["a", "b"], header=array.header)
         array.position, array.orientation = np.arange(6.0).reshape(2, 3), np.arange(8.0).reshape(2, 4)
