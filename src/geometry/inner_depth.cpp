@@ -11,10 +11,10 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-/// Returns the unit vector in the direction of v; if v is 0, any unit vector perpendicular to `axis`.
-Vector directionOf(const Vector& v, const Vector& axis = Vector::UnitZ()) {
+/// Returns the unit vector in the direction of v; if v is 0, a unit vector perpendicular to z.
+Vector directionOf(const Vector& v) {
   const double length = v.norm();
-  return length > 0.0 ? Vector(v / length) : axis.unitOrthogonal();
+  return length > 0.0 ? Vector(v / length) : Vector(Vector::UnitX());
 }
 
 InnerDepth least(std::initializer_list<InnerDepth> sides) {

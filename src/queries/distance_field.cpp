@@ -3,6 +3,9 @@
 #include "hgrid_proximity/queries/distance_field.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 #include "geometry/inner_depth.h"
 #include "hgrid_proximity/geometry/float_environment.h"
@@ -16,8 +19,8 @@ namespace {
 using Vector = Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTinyRadius =
-    1e-4;  // [m] a sphere of this radius replaces a point when the depth in a hull is measured
+// [m] A sphere of this radius replaces a point when the depth in a hull is measured.
+constexpr double kTinyRadius = 1e-4;
 
 /// What is nearest to a point.
 struct Nearest {
@@ -204,13 +207,14 @@ class FieldWork {
     const double limit =
         std::min(request_.max_distance, 1.000001 * (std::max(0.0, beside) + lattice_.resolution) + 1e-9);
     Nearest nearest = meter_.nearestTo(point, limit, request_.max_distance);
-    // The value beside it may have been too small, for example inside an open mesh.
+    // If nothing is that near, the distance of the neighbor was too small, for example because the neighbor is inside
+    // an open mesh. Then the whole distance is searched.
     if (!(nearest.distance <= limit) && limit < request_.max_distance) {
       nearest = meter_.nearestTo(point, request_.max_distance, request_.max_distance);
     }
     const double known = std::min(nearest.distance, request_.max_distance);
     if (has_doubts_ && known > 0.0 && noteUnseen(point, known)) return known;
-    field_.distance.push_back(std::max(-request_.max_distance, std::min(known, request_.max_distance)));
+    field_.distance.push_back(std::max(-request_.max_distance, known));
     if (!request_.gradients) return known;
     const bool far = !(std::abs(field_.distance.back()) < request_.max_distance);
     field_.gradient.push_back(far ? Vector(Vector::Zero())
