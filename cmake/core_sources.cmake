@@ -157,7 +157,11 @@ endif()
 # hgrid_core_options(target root): sets the options for a target that is built from the core's sources. Kernels are
 # optimized in every build type. All sources need -ffp-contract=off, so that a formula is rounded in the same way on all
 # machines.
+#
+# A unity build compiles several files as one, because the compiler needs most of its time for the headers of Eigen.
+option(HGRID_UNITY "Compile several files of the core as one; OFF finds a missing #include" ON)
 function(hgrid_core_options target root)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${HGRID_UNITY} UNITY_BUILD_BATCH_SIZE 12)
   target_include_directories(${target} PRIVATE "${root}/src")
   target_compile_options(${target} PRIVATE -ffp-contract=off)
   set(isas portable)

@@ -7,11 +7,11 @@
 #include <map>
 
 #include "bodies/forward_kinematics.h"
+#include "geometry/infinity.h"
 
 namespace hgrid {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::string jointText(const RobotLink& link) { return "joint '" + printable(link.joint) + "'"; }
 

@@ -3,14 +3,13 @@
 #include "distances/map_meter.h"
 
 #include <algorithm>
-#include <limits>
 
+#include "geometry/infinity.h"
 #include "maps/map_gap.h"
 
 namespace hgrid {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A pair of bodies. One of them is a map or cloud, the other has shapes.
 class MapPair {

@@ -18,24 +18,24 @@ constexpr std::size_t kMostWaiting = 4;     // ticks that wait for compact(); ea
 constexpr std::size_t kEntryOverhead = 64;  // [bytes] of a shared object and of its place in a deque
 constexpr std::size_t kMostRestored = 4;    // past snapshots that are kept for the next queries
 
-/// A kept tick.
-struct Entry {
-  Time stamp{0};
-  std::uint64_t sequence = 0;
-  std::uint64_t replaces_from = 0;  // sequence of the first of the ticks with this stamp; the later ones replaced it
-  std::shared_ptr<const void> note;
-  std::size_t own_bytes = 0;             // [bytes] of the entry and its note
-  std::shared_ptr<const Snapshot> live;  // null: `record` has replaced it
-  std::shared_ptr<const SnapshotRecord> record;
-  std::shared_ptr<const Snapshot> restored;  // null: not made again, or dropped since then
-  std::size_t restored_bytes = 0;
-  std::mutex restoring;  // held while a query makes `restored`
-};
-using Entries = std::deque<std::shared_ptr<Entry>>;
-
 }  // namespace
 
 struct History::State {
+  /// A kept tick.
+  struct Entry {
+    Time stamp{0};
+    std::uint64_t sequence = 0;
+    std::uint64_t replaces_from = 0;  // sequence of the first of the ticks with this stamp; the later ones replaced it
+    std::shared_ptr<const void> note;
+    std::size_t own_bytes = 0;             // [bytes] of the entry and its note
+    std::shared_ptr<const Snapshot> live;  // null: `record` has replaced it
+    std::shared_ptr<const SnapshotRecord> record;
+    std::shared_ptr<const Snapshot> restored;  // null: not made again, or dropped since then
+    std::size_t restored_bytes = 0;
+    std::mutex restoring;  // held while a query makes `restored`
+  };
+  using Entries = std::deque<std::shared_ptr<Entry>>;
+
   explicit State(const HistoryLimits& given) : limits(given) {}
 
   const HistoryLimits limits;
@@ -88,11 +88,11 @@ std::shared_ptr<const Snapshot> History::State::forgetRestored(std::shared_ptr<E
 
 void History::add(std::shared_ptr<const Snapshot> snapshot, std::shared_ptr<const void> note, std::size_t note_bytes) {
   State& s = *state_;
-  const auto entry = std::make_shared<Entry>();
+  const auto entry = std::make_shared<State::Entry>();
   entry->stamp = snapshot->stamp();
   entry->sequence = entry->replaces_from = snapshot->sequence();
   entry->note = std::move(note);
-  entry->own_bytes = sizeof(Entry) + kEntryOverhead + note_bytes;
+  entry->own_bytes = sizeof(State::Entry) + kEntryOverhead + note_bytes;
   const std::lock_guard<std::mutex> lock(s.mutex);
   if (snapshot->epoch() != s.epoch) s.dropAll();
   s.epoch = snapshot->epoch();
@@ -235,7 +235,7 @@ std::shared_ptr<const Snapshot> History::State::snapshotOf(const std::shared_ptr
 PastTick History::find(Time stamp, const Snapshot& newest) const {
   State& s = *state_;
   PastTick past;
-  std::shared_ptr<Entry> entry;
+  std::shared_ptr<State::Entry> entry;
   {
     const std::lock_guard<std::mutex> lock(s.mutex);
     if (s.epoch != newest.epoch()) return past;

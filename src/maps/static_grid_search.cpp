@@ -4,8 +4,8 @@
 // Implements the queries of StaticGrid. static_grid.cpp builds it.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "geometry/infinity.h"
 #include "hgrid_proximity/maps/static_grid.h"
 #include "maps/branch_free.h"
 #include "maps/brick.h"
@@ -15,7 +15,6 @@
 namespace hgrid {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Searches the bricks. All coordinates are in keys: they count finest edges from the origin of the map. So the corners
 /// of cells are integers.

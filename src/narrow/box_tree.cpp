@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "narrow/box_tree.h"
+#include "geometry/infinity.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -16,7 +16,6 @@ namespace {
 using Vector = Eigen::Vector3d;
 using Matrix = Eigen::Matrix3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kTurns = 24;  // directions that are tried for the sides of a box
 
 /// The smallest and largest coordinates of some points.
@@ -28,9 +27,9 @@ struct Bounds {
   Vector low = Vector::Constant(kInfinity), high = Vector::Constant(-kInfinity);
 };
 
-class Builder {
+class BoxTreeBuilder {
  public:
-  Builder(std::vector<Triangle>& triangles, BoxTree& tree)
+  BoxTreeBuilder(std::vector<Triangle>& triangles, BoxTree& tree)
       : triangles_(triangles), tree_(tree), order_(triangles.size()) {
     Bounds bounds;
     for (const Triangle& triangle : triangles) {
@@ -207,7 +206,7 @@ void addChild(BoxNode& node, const Eigen::Matrix3d& axes, const Eigen::Vector3d&
 
 BoxTree boxTreeOf(std::vector<Triangle>& triangles) {
   BoxTree tree;
-  Builder(triangles, tree).build();
+  BoxTreeBuilder(triangles, tree).build();
   return tree;
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "narrow/convex_pair.h"
+#include "geometry/infinity.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace hgrid {
@@ -12,7 +12,6 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // [m] Largest accepted difference between the gap and the distance of the two nearest points, besides rounding.
 constexpr double kDisagreement = 1e-6;
 // Bounds of a gap count as equal if they differ by at most 1e-6 m, the promised precision of distances, plus this part

@@ -13,7 +13,6 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr double kInside = 0.5;          // least winding number of a point inside a closed mesh
 constexpr std::size_t kMostOfMesh = 12;  // largest number of spheres in a closed mesh
 constexpr double kPoints = 700.0;        // about this many points of a mesh are tried as centers
 constexpr double kLeast = 0.25;          // no sphere of a mesh is smaller than this share of its largest sphere
@@ -151,7 +150,7 @@ std::vector<Sphere> innerSpheresOf(const MeshTree& tree, const Enclosure& enclos
       for (int z = 0; z < count[2]; ++z) {
         const Vector share((x + 0.5) / count[0], (y + 0.5) / count[1], (z + 0.5) / count[2]);
         const Vector center = low + share.cwiseProduct(size);
-        if (std::abs(enclosure.windingNumber(center)) < kInside) continue;
+        if (std::abs(enclosure.windingNumber(center)) < kLeastWinding) continue;
         const CoreGap gap = tree.gapTo(point, Pose(Eigen::Translation3d(center)), size.norm());
         if (gap.lower > 0.0) spheres.push_back({center, gap.lower});
       }

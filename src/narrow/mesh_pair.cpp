@@ -13,8 +13,6 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-// A closed mesh winds around a point 0 times or a whole number of times, so rounding cannot matter at one half.
-constexpr double kInside = 0.5;
 constexpr double kMaybeInside = 0.25;  // an open mesh may enclose a point with at least this winding number
 
 bool isMesh(const Side& side) { return side.solid.kind() == ShapeKind::mesh; }
@@ -53,7 +51,7 @@ Enclosed enclosedBy(const Side& outer, const Side& inner, const Pose& outer_from
   result.crossing = inner.around - outer.around;  // the padding of the outer solid moves its surface away
   if (!isMesh(outer)) return result;              // the gap to a filled convex solid would have been 0
   const Enclosure& enclosure = meshOf(outer).enclosure();
-  const double least = enclosure.closed() ? kInside : kMaybeInside;
+  const double least = enclosure.closed() ? kLeastWinding : kMaybeInside;
   const bool inside = anyPart(inner, [&](const Vector* begin, const Vector* end) {
     const auto in_box = [&](const Vector& point) { return enclosure.boxHolds(outer_from_inner * point); };
     result.point = outer_from_inner * *begin;

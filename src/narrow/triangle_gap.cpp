@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "narrow/triangle_gap.h"
+#include "geometry/infinity.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -12,7 +13,6 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 4e-15;  // relative to the coordinates: an upper bound of the rounding errors
 
 double limited(double share) { return share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share; }

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "geometry/infinity.h"
 #include "geometry/inner_depth.h"
 #include "hgrid_proximity/geometry/float_environment.h"
 #include "hgrid_proximity/queries/query.h"
@@ -18,7 +18,6 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // [m] A sphere of this radius replaces a point when the depth in a hull is measured.
 constexpr double kTinyRadius = 1e-4;
 

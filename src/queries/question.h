@@ -3,10 +3,10 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "geometry/infinity.h"
 #include "queries/placed_map.h"
 #include "queries/placed_plane.h"
 #include "queries/probe.h"
@@ -107,7 +107,6 @@ class Question {
   mutable TimeBudget time;  // checked before each measurement; when it is over, all remaining bodies count as not hit
 
  protected:
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
   Question(const Snapshot& asked, const QueryScope& given) : snapshot(asked), scope(given), time(given.deadline) {}
   const Structure& structure() const { return snapshot.structure(); }

@@ -3,8 +3,8 @@
 #include "world/map_pairs.h"
 
 #include <algorithm>
-#include <limits>
 
+#include "geometry/infinity.h"
 #include "maps/map_gap.h"
 #include "world/pair_margin.h"
 
@@ -81,7 +81,6 @@ bool MapPairs::passed(const OfMap& map, ProxyId proxy, const Snapshot& snapshot,
 /// @returns false if `left` was too small for all pairs
 bool MapPairs::addShapes(OfMap& map, std::uint32_t number, std::uint32_t body, const Snapshot& snapshot,
                          const Horizon& horizon, std::size_t& left, const Add& add) const {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Structure& structure = snapshot.structure();
   const auto gapOf = [&](const Aabb& box, double up_to) {
     return gapTo(*map.cells->grid, boxInMap(map.map_from_world, box, snapshot.origin()), up_to);

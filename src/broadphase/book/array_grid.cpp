@@ -7,12 +7,6 @@
 
 namespace hgrid {
 namespace book {
-namespace {
-
-thread_local Stamps seen;  // the boxes that the present query has met
-
-}  // namespace
-
 std::size_t ArrayGrid::indexOf(const Cell& cell) const {
   const std::int64_t across_x = cells_.high.x - cells_.low.x + 1, across_y = cells_.high.y - cells_.low.y + 1;
   return static_cast<std::size_t>(((cell.z - cells_.low.z) * across_y + cell.y - cells_.low.y) * across_x + cell.x -
@@ -65,6 +59,7 @@ void ArrayGrid::findPairsInCells(PairSink& sink) const {
 }
 
 void ArrayGrid::candidatesInCells(const QueryShape& shape, std::vector<ProxyId>& found) const {
+  thread_local Stamps seen;  // the boxes that this query has met
   seen.begin(idEnd());
   const Aabb& around = shape.bounds();
   const auto add = [&](std::uint32_t begin, std::uint32_t end) {

@@ -6,11 +6,6 @@
 
 namespace hgrid {
 namespace book {
-namespace {
-
-thread_local Stamps seen;  // the boxes that the present query has met
-
-}  // namespace
 
 // ---- the hash table
 
@@ -137,6 +132,7 @@ void HashedGrid::findPairsInCells(PairSink& sink) const {
 }
 
 void HashedGrid::candidatesInCells(const QueryShape& shape, std::vector<ProxyId>& found) const {
+  thread_local Stamps seen;  // the boxes that this query has met
   seen.begin(idEnd());
   const Aabb& around = shape.bounds();
   const auto visit = [&](const Slot& slot) {

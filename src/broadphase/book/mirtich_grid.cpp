@@ -12,13 +12,12 @@ namespace book {
 namespace {
 
 constexpr int kFinest = -20;  // exponent of the finest level: it has boxes up to 2^-20 m (about 1 um), and points
-thread_local Stamps seen;     // the boxes that the present query has met
 
 }  // namespace
 
 /// The exponent of the smallest cell edge that is at least as long as the longest side of the box.
 int MirtichGrid::exponentOf(const Aabb& box) {
-  const double side = longestSide(box);
+  const double side = exactLongestSide(box);
   if (!(side > std::ldexp(1.0, kFinest))) return kFinest;
   int exponent;
   const double fraction = std::frexp(side, &exponent);  // side = fraction * 2^exponent, 0.5 <= fraction < 1
@@ -125,6 +124,7 @@ void MirtichGrid::findPairs(PairSink& sink) const {
 }
 
 void MirtichGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) const {
+  thread_local Stamps seen;  // the boxes that this query has met
   seen.begin(idEnd());
   const auto consider = [&](ProxyId id) {
     if (overlap(shape.bounds(), box(id)) && seen.mark(id)) found.push_back(id);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "broadphase/hgrid/cell_plan.h"
+#include "geometry/infinity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -178,7 +179,6 @@ float longestSide(const Aabb& box) { return (box.max - box.min).maxCoeff(); }
 
 CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge, bool even) {
   std::array<Census, GridScale::kLevels + 1> sizes;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Vector lower, upper;
   lower.fill(kInfinity);
   upper.fill(-kInfinity);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "broadphase/hgrid/layer.h"
+#include "geometry/infinity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +15,10 @@ namespace {
 
 constexpr std::size_t kReadBeyond = 16;                      // positions that kernels may read beyond the last box
 constexpr std::size_t kWorthCopying = std::size_t{1} << 18;  // number of boxes; fewer boxes mostly stay in the cache
-constexpr std::size_t kWorthAThread = 16384;                 // least number of boxes per thread
 constexpr int kSortsPerPlan = 64;                            // after so many sorts, the layer makes a new plan
 constexpr std::size_t kWorthRegions = 64;                    // a layer with fewer boxes than this has one region
 constexpr double kCrowded = 32.0;     // from this crowding() on, regions are tried; evenly spread boxes have about 2
 constexpr double kLessCrowded = 0.6;  // regions are used if they reduce crowding() to less than this fraction
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();  // every comparison with it is false
 
 static_assert(sizeof(Aabb) == sizeof(kernels::Box), "kernels read a box as six floats");
@@ -205,15 +204,15 @@ void Layer::count(const std::vector<Aabb>& boxes, const Machine& machine, std::s
     keying.first_cells = plan_.firstCells();
     keying.levels = static_cast<int>(levels);
     keying.sizes = scratch.sizes.data() + 4 * levels * thread;
-    std::fill_n(keying.lower, 4, kInfinity);
-    std::fill_n(keying.upper, 4, -kInfinity);
+    std::fill_n(keying.lower, 4, kFloatInfinity);
+    std::fill_n(keying.upper, 4, -kFloatInfinity);
     if (divided) {
       keying.regions = plan_.tree().regions();
       keying.branches = plan_.tree().branches();
       keying.corners = scratch.corners.data() + 8 * levels * thread;
       for (std::size_t level = 0; level < levels; ++level) {
-        std::fill_n(keying.corners + 8 * level, 4, kInfinity);
-        std::fill_n(keying.corners + 8 * level + 4, 4, -kInfinity);
+        std::fill_n(keying.corners + 8 * level, 4, kFloatInfinity);
+        std::fill_n(keying.corners + 8 * level + 4, 4, -kFloatInfinity);
       }
       machine.kernels->keyRegions(&keying);
     } else {
@@ -297,11 +296,11 @@ void Layer::describe(const SortScratch& scratch) {
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
       // The size of a box is a difference that may have been rounded down.
-      level.reach[axis] = std::nextafter(total.sizes[4 * i + axis], kInfinity);
+      level.reach[axis] = std::nextafter(total.sizes[4 * i + axis], kFloatInfinity);
       level.mean_sides[axis] = plan_.meanSides(i)[axis];
-      level.around.min[axis] = level.begin < level.end ? lower[axis] : kInfinity;
+      level.around.min[axis] = level.begin < level.end ? lower[axis] : kFloatInfinity;
       level.around.max[axis] =
-          level.begin < level.end ? std::nextafter(upper[axis] + level.reach[axis], kInfinity) : -kInfinity;
+          level.begin < level.end ? std::nextafter(upper[axis] + level.reach[axis], kFloatInfinity) : -kFloatInfinity;
     }
   }
   point();

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "broadphase/hgrid/level_bounds.h"
+#include "geometry/infinity.h"
 
-#include <limits>
 
 namespace hgrid {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr kernels::Box kEmpty = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+constexpr kernels::Box kEmpty = {{kFloatInfinity, kFloatInfinity, kFloatInfinity},
+                                 {-kFloatInfinity, -kFloatInfinity, -kFloatInfinity}};
 
 std::size_t boxesAbove(std::size_t boxes) { return (boxes + kernels::Tier::kFan - 1) / kernels::Tier::kFan; }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "broadphase/hgrid/occupancy.h"
+#include "geometry/infinity.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace hgrid {
 namespace {
@@ -17,8 +17,8 @@ constexpr double kOne = 65536.0;
 
 void Occupancy::set(const std::vector<kernels::Level>& levels) {
   constexpr std::size_t kMostMarks = kRows * kAcross / 2;  // if more cells are occupied, the bits are of no use
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  kernels::Box all = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  kernels::Box all = {{kFloatInfinity, kFloatInfinity, kFloatInfinity},
+                      {-kFloatInfinity, -kFloatInfinity, -kFloatInfinity}};
   for (const kernels::Level& level : levels) {
     for (int axis = 0; axis < 3; ++axis) {
       all.min[axis] = std::min(all.min[axis], level.around.min[axis]);

@@ -10,8 +10,7 @@
 namespace hgrid {
 namespace {
 
-constexpr std::uint32_t kTask = 1024;         // boxes per task; a multiple of kBlock in output_body.h
-constexpr std::size_t kWorthAThread = 16384;  // boxes per thread
+constexpr std::uint32_t kTask = 1024;  // boxes per task; a multiple of kBlock in output_body.h
 
 bool notBothFixed(const void* fixed, ProxyId first, ProxyId second) {
   const auto& is = *static_cast<const std::vector<bool>*>(fixed);

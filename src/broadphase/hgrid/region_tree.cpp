@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "broadphase/hgrid/region_tree.h"
+#include "geometry/infinity.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +11,6 @@
 namespace hgrid {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr std::size_t kLeast = 4;           // smallest number of samples in a region
 constexpr std::size_t kFewSamples = 8192;   // up to this number of boxes, all boxes are samples
 constexpr std::size_t kBoxesPerSample = 4;  // if there are very many boxes, one in every four is a sample
@@ -23,7 +23,7 @@ using Corner = std::array<float, 3>;
 /// The number and the bounds [m] of some minimum corners.
 struct Group {
   double count = 0.0;
-  Corner low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
+  Corner low{kFloatInfinity, kFloatInfinity, kFloatInfinity}, high{-kFloatInfinity, -kFloatInfinity, -kFloatInfinity};
 
   void add(const Corner& corner) {
     count += 1.0;
@@ -70,8 +70,8 @@ class RegionTree::Division {
     tree.branches_.clear();
     tree.regions_.clear();
     kernels::Region space{};
-    std::fill_n(space.low, 3, -kInfinity);
-    std::fill_n(space.high, 3, kInfinity);
+    std::fill_n(space.low, 3, -kFloatInfinity);
+    std::fill_n(space.high, 3, kFloatInfinity);
     lay(tree, 0, space);
     return tree;
   }
@@ -212,8 +212,8 @@ RegionTree::RegionTree() { join(); }
 void RegionTree::join() {
   branches_.assign(1, {0.0f, -1, 0, 0});
   regions_.assign(1, {});
-  std::fill_n(regions_[0].low, 3, -kInfinity);
-  std::fill_n(regions_[0].high, 3, kInfinity);
+  std::fill_n(regions_[0].low, 3, -kFloatInfinity);
+  std::fill_n(regions_[0].high, 3, kFloatInfinity);
 }
 
 RegionTree RegionTree::dividing(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count) {

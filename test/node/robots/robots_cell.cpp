@@ -11,11 +11,6 @@
 
 namespace hgrid {
 namespace test {
-namespace {
-
-constexpr auto kPatience = std::chrono::seconds(30);
-
-}  // namespace
 
 Cell* RobotsTest::cell_ = nullptr;
 

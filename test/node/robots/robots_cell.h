@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <ros/node_handle.h>
 
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@
 
 namespace hgrid {
 namespace test {
+
+constexpr auto kPatience = std::chrono::seconds(30);  // most time that a change in the node may take
 
 constexpr double kPeriod = 1.0 / 50;  // [s] one period of ~rate in robots.test
 constexpr double kMargin = 0.1;       // [m] value of ~margin in robots.test

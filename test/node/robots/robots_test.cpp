@@ -28,7 +28,6 @@ using hgrid_proximity::Hit;
 using hgrid_proximity::WorldState;
 
 constexpr double kTolerance = 1e-5;  // [m] covers rounding to float, and quaternions in tf messages
-constexpr auto kPatience = std::chrono::seconds(30);
 
 class Robots : public RobotsTest {
  protected:

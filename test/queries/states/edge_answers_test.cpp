@@ -14,8 +14,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kQuarter = 1.5707963267948966;
-
 /// Returns the angle at which the sphere of the arm begins to touch a ball of the same size, at `angle` on its circle.
 double touchingAngle(double angle) { return angle - 2.0 * std::asin(0.1 / 0.5); }
 

@@ -11,8 +11,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kQuarter = 1.5707963267948966;
-
 /// Expects that two answers are equal, bit by bit, for two states.
 void expectSame(const StateAnswers& a, std::size_t i, const StateAnswers& b, std::size_t k) {
   const StateAnswer &one = a.states[i], &other = b.states[k];

@@ -11,8 +11,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kQuarter = 1.5707963267948966;
-
 /// An arm with a ball that it hits after a quarter turn.
 class StateDoubts : public ::testing::Test {
  protected:

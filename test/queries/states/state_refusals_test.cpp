@@ -13,8 +13,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kQuarter = 1.5707963267948966;
-
 TEST(StateRefusals, AnInvalidStateIsRefusedByNameAndTheOthersAreAnswered) {
   ArmWorld world;
   put(world.scene, ArmWorld::ballBody("ball"), at(0, 0.5));

@@ -11,6 +11,8 @@
 namespace hgrid {
 namespace test {
 
+constexpr double kQuarter = 1.5707963267948966;  // [rad] a quarter of a turn
+
 inline RobotModel turningArm() {
   RobotModel model;
   model.name = "robot";
