@@ -2,6 +2,7 @@
 set(HGRID_CORE_SOURCES
   src/bodies/forward_kinematics.cpp
   src/bodies/group_tree.cpp
+  src/bodies/joined_robots.cpp
   src/bodies/joint_groups.cpp
   src/bodies/kinematics.cpp
   src/bodies/link_matrix.cpp
@@ -70,6 +71,7 @@ set(HGRID_CORE_SOURCES
   src/maps/self_filter.cpp
   src/maps/static_grid.cpp
   src/maps/static_grid_search.cpp
+  src/maps/touch_table.cpp
   src/narrow/box_search.cpp
   src/narrow/box_tree.cpp
   src/narrow/convex_pair.cpp
@@ -154,12 +156,13 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND HGRID_KERNEL_FLAGS_avx512 -Wno-maybe-uninitialized -Wno-uninitialized)
 endif()
 
+# A unity build compiles several files as one, because the compiler needs most of its time for the headers of Eigen.
+#catkin_lint: ignore_once global_var_collision
+option(HGRID_UNITY "Compile several files of the core as one; OFF finds a missing #include" ON)
+
 # hgrid_core_options(target root): sets the options for a target that is built from the core's sources. Kernels are
 # optimized in every build type. All sources need -ffp-contract=off, so that a formula is rounded in the same way on all
 # machines.
-#
-# A unity build compiles several files as one, because the compiler needs most of its time for the headers of Eigen.
-option(HGRID_UNITY "Compile several files of the core as one; OFF finds a missing #include" ON)
 function(hgrid_core_options target root)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${HGRID_UNITY} UNITY_BUILD_BATCH_SIZE 12)
   target_include_directories(${target} PRIVATE "${root}/src")

@@ -12,7 +12,6 @@
 namespace hgrid {
 namespace {
 
-
 std::string jointText(const RobotLink& link) { return "joint '" + printable(link.joint) + "'"; }
 
 /// Stores a matrix in the order of rows.

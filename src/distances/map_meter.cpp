@@ -10,7 +10,6 @@
 namespace hgrid {
 namespace {
 
-
 /// A pair of bodies. One of them is a map or cloud, the other has shapes.
 class MapPair {
  public:

@@ -6,7 +6,8 @@
 
 namespace hgrid {
 
+// Infinity as a double, and as a float for the corners of boxes.
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
-inline constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();  // of the same type as the corners of boxes
+inline constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 
 }  // namespace hgrid

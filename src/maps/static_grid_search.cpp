@@ -15,7 +15,6 @@
 namespace hgrid {
 namespace {
 
-
 /// Searches the bricks. All coordinates are in keys: they count finest edges from the origin of the map. So the corners
 /// of cells are integers.
 class Search {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "narrow/box_tree.h"
-#include "geometry/infinity.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -9,6 +8,8 @@
 #include <cmath>
 #include <numeric>
 #include <utility>
+
+#include "geometry/infinity.h"
 
 namespace hgrid {
 namespace {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "narrow/convex_pair.h"
-#include "geometry/infinity.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "geometry/infinity.h"
 
 namespace hgrid {
 namespace {

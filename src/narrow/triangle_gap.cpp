@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "narrow/triangle_gap.h"
-#include "geometry/infinity.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
+
+#include "geometry/infinity.h"
 
 namespace hgrid {
 namespace {

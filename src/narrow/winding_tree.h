@@ -10,8 +10,8 @@
 
 namespace hgrid {
 
-/// Least winding number of a point inside a closed mesh. A closed mesh winds around a point 0 times or a whole number of
-/// times, so rounding cannot matter at one half.
+/// Least winding number of a point inside a closed mesh. A closed mesh winds around a point 0 times or a whole number
+/// of times, so rounding cannot matter at one half.
 inline constexpr double kLeastWinding = 0.5;
 
 /// Computes how often the surface of a mesh winds around a point, without visiting all triangles. Immutable.

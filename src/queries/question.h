@@ -107,7 +107,6 @@ class Question {
   mutable TimeBudget time;  // checked before each measurement; when it is over, all remaining bodies count as not hit
 
  protected:
-
   Question(const Snapshot& asked, const QueryScope& given) : snapshot(asked), scope(given), time(given.deadline) {}
   const Structure& structure() const { return snapshot.structure(); }
   const Eigen::Vector3d& origin() const { return snapshot.origin(); }

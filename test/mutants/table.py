@@ -111,7 +111,7 @@ CORE = [
      "lane < 8", "lane < 7"),
 
     ("the reach is a length that was rounded down", LAYER,
-     "std::nextafter(total.sizes[4 * i + axis], kInfinity)", "total.sizes[4 * i + axis]"),
+     "std::nextafter(total.sizes[4 * i + axis], kFloatInfinity)", "total.sizes[4 * i + axis]"),
     ("the positions in a layer are not computed again", ENGINE,
      "located[layer] = false;", ""),
     ("a removed box stays in its layer", ENGINE,
@@ -130,7 +130,7 @@ CORE = [
     ("the bounds of 16 levels are those of the first", LEVEL_BOUNDS,
      "i < std::min(first + kernels::Tier::kFan, below.count)", "i < first + 1"),
     ("the bounds of a region end at the minimum corner of its last box", LAYER,
-     "std::nextafter(upper[axis] + level.reach[axis], kInfinity)", "upper[axis]"),
+     "std::nextafter(upper[axis] + level.reach[axis], kFloatInfinity)", "upper[axis]"),
     ("two layers are tested in one order only", PAIRS,
      "addTask(tasks, second, &first);", ""),
     ("boxes that were inserted one by one form no pairs", PAIRS,

@@ -7,6 +7,7 @@
 
 namespace hgrid {
 namespace book {
+
 std::size_t ArrayGrid::indexOf(const Cell& cell) const {
   const std::int64_t across_x = cells_.high.x - cells_.low.x + 1, across_y = cells_.high.y - cells_.low.y + 1;
   return static_cast<std::size_t>(((cell.z - cells_.low.z) * across_y + cell.y - cells_.low.y) * across_x + cell.x -

@@ -36,7 +36,7 @@ double cellEdgeFor(const std::vector<Aabb>& boxes, CellRule rule) {
   if (rule == CellRule::objects) {
     std::vector<double> sides;
     sides.reserve(boxes.size());
-    for (const Aabb& box : boxes) sides.push_back(exactLongestSide(box));
+    for (const Aabb& box : boxes) sides.push_back(longestSideInDouble(box));
     const auto longest_of_most = sides.begin() + static_cast<std::ptrdiff_t>((sides.size() - 1) * 19 / 20);
     std::nth_element(sides.begin(), longest_of_most, sides.end());
     edge = *longest_of_most;

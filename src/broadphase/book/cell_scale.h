@@ -167,7 +167,7 @@ enum class CellRule {
 };
 
 /// Length [m] of a box's longest side.
-inline double exactLongestSide(const Aabb& box) { return (box.max.cast<double>() - box.min.cast<double>()).maxCoeff(); }
+inline double longestSideInDouble(const Aabb& box) { return (box.max.cast<double>() - box.min.cast<double>()).maxCoeff(); }
 
 /// Returns the edge of a cell [m] for these boxes, 1 if there are none. If 19 of 20 boxes are points, both rules use
 /// the density.

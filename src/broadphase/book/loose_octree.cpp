@@ -29,7 +29,7 @@ std::uint64_t nodeCode(int depth, std::uint64_t x, std::uint64_t y, std::uint64_
 }
 
 LooseOctree::Place LooseOctree::placeOf(const Aabb& box) const {
-  const double side = exactLongestSide(box);
+  const double side = longestSideInDouble(box);
   const Eigen::Vector3d offset = 0.5 * (box.min.cast<double>() + box.max.cast<double>()) - low_;
   if (side > width_ || !(offset.array() >= 0.0).all() || !(offset.array() < width_).all()) return {};
   // The largest depth at which a node is still at least as wide as the box is long. The quotient is not computed for

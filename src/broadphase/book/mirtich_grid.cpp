@@ -17,7 +17,7 @@ constexpr int kFinest = -20;  // exponent of the finest level: it has boxes up t
 
 /// The exponent of the smallest cell edge that is at least as long as the longest side of the box.
 int MirtichGrid::exponentOf(const Aabb& box) {
-  const double side = exactLongestSide(box);
+  const double side = longestSideInDouble(box);
   if (!(side > std::ldexp(1.0, kFinest))) return kFinest;
   int exponent;
   const double fraction = std::frexp(side, &exponent);  // side = fraction * 2^exponent, 0.5 <= fraction < 1

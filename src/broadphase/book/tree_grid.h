@@ -48,7 +48,7 @@ class TreeGrid final : public Partition {
   void draw(std::vector<Aabb>& regions) const override;
 
   /// Whether a box belongs to the tree `large_`.
-  bool isLarge(const Aabb& box) const { return exactLongestSide(box) > scale_.edge(); }
+  bool isLarge(const Aabb& box) const { return longestSideInDouble(box) > scale_.edge(); }
   void buildTree(Tree& tree);
 
   CellScale scale_;

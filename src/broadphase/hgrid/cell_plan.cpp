@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "broadphase/hgrid/cell_plan.h"
-#include "geometry/infinity.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "geometry/infinity.h"
 
 namespace hgrid {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "broadphase/hgrid/layer.h"
-#include "geometry/infinity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,8 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+
+#include "geometry/infinity.h"
 
 namespace hgrid {
 namespace {

@@ -13,7 +13,7 @@
 
 namespace hgrid {
 
-constexpr std::size_t kWorthAThread = 16384;  ///< least number of boxes for which one more thread saves time
+constexpr std::size_t kWorthAThread = 16384;  ///< least number of boxes per thread for which another one saves time
 
 /// Buffers for sorting. All layers of a grid share them. "By position" means: in the order that the boxes have before
 /// the sort.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "broadphase/hgrid/level_bounds.h"
-#include "geometry/infinity.h"
 
+#include "geometry/infinity.h"
 
 namespace hgrid {
 namespace {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "broadphase/hgrid/occupancy.h"
-#include "geometry/infinity.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "geometry/infinity.h"
 
 namespace hgrid {
 namespace {

@@ -16,7 +16,7 @@
 namespace hgrid {
 namespace test {
 
-constexpr auto kPatience = std::chrono::seconds(30);  // most time that a change in the node may take
+constexpr auto kPatience = std::chrono::seconds(30);  // how long a test waits for the node before it fails
 
 constexpr double kPeriod = 1.0 / 50;  // [s] one period of ~rate in robots.test
 constexpr double kMargin = 0.1;       // [m] value of ~margin in robots.test
