@@ -36,7 +36,8 @@ class ScratchFolder {
 
 /// Adds a peer to the match. OctoMap's answers are the reference, or FCL's answers if OctoMap does not take part.
 void add(Match& match, const MapPeerKind& kind, const std::function<Contestant::Play()>& begin) {
-  match.add(std::make_unique<Contestant>(begin, 1), kind.name != "hgrid", kind.name != "hgrid");
+  const bool is_peer = kind.name.rfind("hgrid", 0) != 0;
+  match.add(std::make_unique<Contestant>(begin, 1), is_peer, is_peer);
 }
 
 Record recordOf(const Map& map, const MapPeerKind& kind, const std::string& query, const Score& score,
@@ -110,7 +111,7 @@ void playMaking(const Setting& setting, std::vector<Record>& records) {
   std::fflush(stdout);
 }
 
-/// Measures how long the peers take to answer questions of one kind, in random order and in Morton order (batched).
+/// Measures how long the peers take to answer questions of one kind, in random order and all at once (batched).
 void playAsking(const Setting& setting, const std::vector<std::unique_ptr<MapPeer>>& peers,
                 const MapQuestions& questions, const MapDoubts& doubts, MapQuestion question,
                 std::vector<Record>& records) {

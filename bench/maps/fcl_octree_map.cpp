@@ -16,7 +16,9 @@ class FclOcTreeMap final : public MapPeer {
  public:
   explicit FclOcTreeMap(const std::shared_ptr<const octomap::OcTree>& tree) : tree_(tree), geometry_(tree) {}
 
-  bool answers(MapQuestion question) const override { return question == MapQuestion::touches; }
+  bool answers(MapQuestion question) const override {
+    return question == MapQuestion::touches || question == MapQuestion::small;
+  }
 
   bool touches(const Sphere& sphere) override {
     const fcl::Sphere<double> ball(sphere.radius);

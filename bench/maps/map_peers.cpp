@@ -8,7 +8,7 @@ namespace hgrid {
 namespace bench {
 
 const char* name(MapQuestion question) {
-  static constexpr const char* kNames[] = {"touches", "overlapping", "segment"};
+  static constexpr const char* kNames[] = {"touches", "small", "overlapping", "segment"};
   return kNames[static_cast<int>(question)];
 }
 
@@ -16,6 +16,7 @@ const std::vector<MapPeerKind>& mapPeers() {
   static const std::size_t any = std::numeric_limits<std::size_t>::max();
   static const std::vector<MapPeerKind> kinds{
       {"hgrid", any, readStaticGrid, makeStaticGrid},
+      {"hgrid TouchTable", any, readTouchTable, makeTouchTable},
 #ifdef HGRID_BENCH_OCTOMAP
       {"OctoMap", any, readOcTree, nullptr},
 #endif

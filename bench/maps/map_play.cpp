@@ -54,7 +54,8 @@ AskMapPlay::AskMapPlay(MapPeer& peer, MapQuestion kind, bool batched, const Map&
 void AskMapPlay::answer(std::size_t question) {
   switch (kind_) {
     case MapQuestion::touches:
-      return found_.resize(peer_->touches(questions_->spheres[question]) ? 1 : 0);
+    case MapQuestion::small:
+      return found_.resize(peer_->touches(questions_->spheresOf(kind_)[question]) ? 1 : 0);
     case MapQuestion::overlapping:
       return peer_->overlapping(questions_->spheres[question], found_);
     case MapQuestion::segment:
@@ -71,7 +72,7 @@ Sample AskMapPlay::compared(const MapDoubts& doubts) {
     answer(i);
     result.count += found_.size();
     for (Voxel& leaf : found_) {
-      if (kind_ == MapQuestion::touches) leaf = Voxel{};
+      if (kind_ == MapQuestion::touches || kind_ == MapQuestion::small) leaf = Voxel{};
       if (kind_ == MapQuestion::segment) leaf = leafOf(leaf, map_->leaves);
       sum.add(mixed(i) + numberOf(leaf));
     }
@@ -82,6 +83,10 @@ Sample AskMapPlay::compared(const MapDoubts& doubts) {
 
 double AskMapPlay::timed() {
   const Clock::time_point begin = Clock::now();
+  if (batched_ && kind_ == MapQuestion::small) {
+    peer_->touches(questions_->small, touched_);
+    return msSince(begin);
+  }
   if (batched_) {
     for (const std::uint32_t i : questions_->inMortonOrder(map_->resolution)) answer(i);
     return msSince(begin);

@@ -27,8 +27,8 @@ class MakeMapPlay {
 /// Measures how long a peer takes to answer questions of one kind.
 ///
 /// First the peer answers all questions without timing; these answers are compared. Then each sample times kChunk
-/// questions in random order. If `batched` is true, each sample instead sorts all questions into Morton order and asks
-/// them all, as a user with many questions would do.
+/// questions in random order. If `batched` is true, each sample instead asks all questions: small spheres in one call,
+/// other questions sorted into Morton order, as a user with many questions would do.
 class AskMapPlay {
  public:
   static constexpr std::size_t kChunk = 1000;
@@ -49,6 +49,7 @@ class AskMapPlay {
   const Map* map_;
   const MapQuestions* questions_;
   std::size_t next_ = 0;
+  std::vector<std::uint8_t> touched_;  // whether the small spheres touch a leaf
   std::vector<Voxel> found_;  // leaves that answer the last question; for `touches`, any leaf means "yes"
   Sample result_;             // template of all samples; only their times differ
 };

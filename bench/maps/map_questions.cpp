@@ -9,12 +9,14 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-constexpr double kRadius = 0.25, kNear = 0.5, kLength = 10.0;  // [m]
+constexpr double kRadius = 0.25, kNear = 0.5, kLength = 10.0;       // [m]
+constexpr double kSmallestRadius = 0.03, kLargestRadius = 0.15;  // [m] of small spheres
+constexpr double kSmallNear = 0.6;  // [m] largest distance of a small sphere from the middle of the leaf
 
 bool isDoubtful(const StaticGrid& grid, const Sphere& sphere, MapQuestion kind) {
   const Sphere less{sphere.center, sphere.radius - MapDoubts::kDoubt},
       more{sphere.center, sphere.radius + MapDoubts::kDoubt};
-  if (kind == MapQuestion::touches) return grid.touches(less) != grid.touches(more);
+  if (kind != MapQuestion::overlapping) return grid.touches(less) != grid.touches(more);
   std::vector<Voxel> of_less, of_more;
   grid.overlapping(less, grid.size(), of_less);
   grid.overlapping(more, grid.size(), of_more);
@@ -50,6 +52,9 @@ MapQuestions::MapQuestions(const Map& map, std::size_t count) {
     const Eigen::Vector3f to = (center.cast<double>() + kLength * direction(random)).cast<float>();
     spheres.push_back({center.cast<double>(), kRadius});
     segments.push_back({center.cast<double>(), to.cast<double>(), 0.0});
+    const Eigen::Vector3f beside = (middle + random.uniform(0.0, kSmallNear) * direction(random)).cast<float>();
+    const auto radius = static_cast<float>(random.uniform(kSmallestRadius, kLargestRadius));
+    small.push_back({beside.cast<double>(), static_cast<double>(radius)});
   }
 }
 
@@ -69,7 +74,7 @@ std::vector<std::uint32_t> MapQuestions::inMortonOrder(double resolution) const 
 MapDoubts::MapDoubts(const StaticGrid& grid, const MapQuestions& questions, MapQuestion kind) {
   for (std::size_t i = 0; i < questions.size(); ++i) {
     doubts_.push_back(kind == MapQuestion::segment ? isDoubtful(grid, questions.segments[i])
-                                                   : isDoubtful(grid, questions.spheres[i], kind));
+                                                   : isDoubtful(grid, questions.spheresOf(kind)[i], kind));
     count_ += doubts_.back() ? 1 : 0;
   }
 }

@@ -15,13 +15,16 @@ namespace bench {
 /// Questions about a map, each near a random leaf.
 ///
 /// Spheres have a radius of 0.25 m. Their centers are up to 0.5 m away from the middle of the leaf along each axis.
-/// Segments start at the centers of the spheres, have a random direction and are 10 m long.
+/// Segments start at the centers of the spheres, have a random direction and are 10 m long. Small spheres have a radius
+/// of 0.03 to 0.15 m, and their centers are up to 0.6 m away from the middle of the leaf, in all directions.
 struct MapQuestions {
-  std::vector<Sphere> spheres;
+  std::vector<Sphere> spheres, small;
   std::vector<Segment> segments;
 
   MapQuestions(const Map& map, std::size_t count);
   std::size_t size() const { return spheres.size(); }
+  /// Returns the spheres of a kind of question.
+  const std::vector<Sphere>& spheresOf(MapQuestion kind) const { return kind == MapQuestion::small ? small : spheres; }
 
   /// Returns the indices of the questions, sorted by the Morton codes of their start points. Questions whose start
   /// points lie in the same block of 32 to 64 cells per axis are not sorted.

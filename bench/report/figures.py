@@ -5,7 +5,7 @@ import json
 
 WORKLOADS = ['uniform', 'mixed', 'floor', 'robots']
 QUERIES = ['sphere', 'segment', 'box', 'nearest', 'nearest8']
-MAP_QUERIES = ['touches', 'overlapping', 'segment']
+MAP_QUERIES = ['touches', 'small', 'overlapping', 'segment']
 TREE = 'FCL DynamicAABBTree'
 
 

@@ -92,6 +92,9 @@ def maps(figures, verdicts):
             for batched in (False, True):
                 us, theirs = (figure(one, query, 'median_us', batched=batched) for one in ('hgrid', peer))
                 verdicts.at_least(where + what + (', batched' if batched else ''), least, ratio(theirs, us))
+        if name == 'geb079':
+            verdicts.at_most(where + 'µs per small sphere, batched, with a TouchTable', 0.15,
+                             figure('hgrid TouchTable', 'small', 'median_us', batched=True))
     asked = figures.all('map', peer='hgrid') if figures.all('map', peer='OctoMap') else []
     if asked:
         verdicts.holds('hgrid\'s leaves and answers on maps equal OctoMap\'s in all %d settings' % len(asked),
