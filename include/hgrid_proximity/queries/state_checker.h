@@ -18,7 +18,8 @@
 
 namespace hgrid {
 
-/// States of one robot, as a planner asks about them. Each state is one value for each variable of the robot's joints.
+/// States of a robot, or of several robots that joinRobots() has joined, as a planner asks about them. Each state is one
+/// value for each variable of the joints.
 struct StateBatch {
   /// Names of the variables that `positions` has, see JointVariable. Empty: all variables, in the order of
   /// Kinematics::variables().
@@ -28,7 +29,8 @@ struct StateBatch {
   /// Values for the variables that `joints` does not name, the same in all states: one value for each of
   /// Kinematics::variables(). Empty: `joints` must name all variables.
   std::vector<double> others;
-  /// Pose of the root link of the robot in the world. nullopt: the pose that the snapshot has.
+  /// Pose of the root link of the robot in the world. nullopt: the pose that the snapshot has; for joined robots, the
+  /// identity, because their root link is the world.
   std::optional<Pose> world_from_root;
 };
 
@@ -97,6 +99,10 @@ struct StateCheckerOptions {
   /// and against everything else. Bodies of the robot that they do not move are part of the world: their contacts with
   /// other bodies are not looked for. Empty: all variables.
   std::vector<std::string> group = {};
+  /// Names of the robots that a planner moves, if `kinematics` are those of joinRobots(). Only their bodies count, as in
+  /// `group`. The other robots are where their joints put them; their contacts with other bodies are not looked for.
+  /// Empty: all robots.
+  std::vector<std::string> robots = {};
   /// Name of the world frame. Obstacles that follow it are not attached to the robot, even if one of its links has this
   /// name. Empty: no link has the name of the world frame.
   std::string world_frame = {};
@@ -108,7 +114,7 @@ struct StateCheckerOptions {
 /// All bodies of one snapshot count, with their padding: links of the robot against each other, and against all other
 /// bodies, maps, clouds and planes. The pair filter of the snapshot applies. The links of the robot and the obstacles
 /// that are attached to them are where the joints put them. Everything else stays where the snapshot has it, also other
-/// robots. An obstacle is attached if it can move and follows the frame of a link that can move, but not the world
+/// robots that are not joined to this one. An obstacle is attached if it can move and follows the frame of a link that can move, but not the world
 /// frame (StateCheckerOptions::world_frame).
 ///
 /// The verdict of a state without contact is `unknown` instead of `clear` if something may be in contact unseen:
@@ -121,8 +127,8 @@ struct StateCheckerOptions {
 /// - Snapshot::reportsUnmapped(), and no map knows the space around a shape of the robot to be free.
 /// - A deadline passed.
 /// With StateRequest::clearance, it is also `unknown` if something unseen may be nearer than the clearance found. For
-/// bodies that the pair filter switches off with all bodies of the robot, and for ignored bodies, nothing of this
-/// counts.
+/// bodies that the pair filter switches off with all bodies of the robot that count, and for ignored bodies, nothing of
+/// this counts.
 ///
 /// Immutable. Any number of threads may call checkStates() and checkEdges() at the same time, each with a scratch
 /// object of its own. The answer for a state depends neither on the other states of its batch, nor on the thread, nor
@@ -132,10 +138,12 @@ class StateChecker {
   /// Prepares the shapes of the robot and of the world. Takes time proportional to the number of shapes.
   /// @param snapshot    the world; the checker keeps it
   /// @param kinematics  the joints of the robot; they must be of the model whose links are in the snapshot
-  /// @param robot       name of the robot in the snapshot (Body::robot)
+  /// @param robot       name of the robot in the snapshot (Body::robot). Empty: `kinematics` are those of joinRobots()
   /// @param narrow_phase  measures the shapes; the solids of the bodies must come from it
-  /// @throws Refusal unknown_id if the snapshot has no links of this robot, or if it has no variable of the group
+  /// @throws Refusal unknown_id if the snapshot has no links of this robot, or of one of the joined robots, or if there
+  /// is no variable of the group or no robot of StateCheckerOptions::robots
   /// @throws Refusal conflict if its links are not those of `kinematics`
+  /// @throws Refusal nonfinite, out_of_range or bad_rotation for the pose of a joined robot
   StateChecker(std::shared_ptr<const Snapshot> snapshot, const Kinematics& kinematics, const std::string& robot,
                std::shared_ptr<const NarrowPhase> narrow_phase, const StateCheckerOptions& options = {});
   ~StateChecker();

@@ -39,6 +39,18 @@ std::vector<bool> wrapsOf(const Kinematics& kinematics) {
   return wraps;
 }
 
+/// Checks the pose of a root link. @throws Refusal nonfinite, out_of_range, bad_rotation
+void checkRoot(const Pose& world_from_root) {
+  if (!world_from_root.matrix().allFinite()) {
+    throw Refusal(Code::nonfinite, "the pose of the robot's root link is not finite; every number must be finite");
+  }
+  checkQueryPoint(world_from_root.translation(), "the position of the robot's root link");
+  const Eigen::Matrix3d turn = world_from_root.linear();
+  if ((turn.transpose() * turn).isIdentity(1e-6) && turn.determinant() > 0.0) return;
+  throw Refusal(Code::bad_rotation,
+                "the pose of the robot's root link has no rotation; its matrix must be orthonormal");
+}
+
 }  // namespace
 
 CheckerParts::CheckerParts(std::shared_ptr<const Snapshot> asked, const Kinematics& joints, const std::string& name,
@@ -46,26 +58,24 @@ CheckerParts::CheckerParts(std::shared_ptr<const Snapshot> asked, const Kinemati
     : snapshot(std::move(asked)),
       kinematics(joints),
       narrow_phase(std::move(measures)),
-      robot(*snapshot, joints, name, options.group, options.world_frame, scopeOf(options)),
+      joined(name.empty()),
+      robot(*snapshot, joints, name, options, scopeOf(options)),
       world(*snapshot, robot, scopeOf(options)),
-      root_body(rootBodyOf(*snapshot, robot)),
+      root_body(joined ? Structure::kNone : rootBodyOf(*snapshot, robot)),
       doubts(*snapshot, robot, world, scopeOf(options), root_body),
       motion(kinematics, robot),
-      wraps(wrapsOf(kinematics)) {}
+      wraps(wrapsOf(kinematics)) {
+  for (std::size_t link = 0; joined && link < kinematics.links().size(); ++link) {
+    if (kinematics.groupOfLink()[link] == 0) checkRoot(kinematics.groupFromLink()[link]);
+  }
+}
 
 Pose CheckerParts::worldFromRoot(const StateBatch& batch) const {
   if (batch.world_from_root) {
-    if (!batch.world_from_root->matrix().allFinite()) {
-      throw Refusal(Code::nonfinite, "the pose of the robot's root link is not finite; every number must be finite");
-    }
-    checkQueryPoint(batch.world_from_root->translation(), "the position of the robot's root link");
-    const Eigen::Matrix3d turn = batch.world_from_root->linear();
-    if (!((turn.transpose() * turn).isIdentity(1e-6) && turn.determinant() > 0.0)) {
-      throw Refusal(Code::bad_rotation,
-                    "the pose of the robot's root link has no rotation; its matrix must be orthonormal");
-    }
+    checkRoot(*batch.world_from_root);
     return *batch.world_from_root;
   }
+  if (joined) return Pose::Identity();  // the root link is the world
   if (root_body == Structure::kNone) {
     throw Refusal(Code::not_ready, "the snapshot has no pose of the root link of robot '" +
                                        printable(kinematics.name()) + "'; give its pose with the states");

@@ -26,6 +26,7 @@ struct CheckerParts {
   const std::shared_ptr<const Snapshot> snapshot;
   const Kinematics kinematics;
   const std::shared_ptr<const NarrowPhase> narrow_phase;
+  const bool joined;  ///< whether the kinematics are those of joinRobots()
   const RobotShapes robot;
   const WorldShapes world;
   const std::uint32_t root_body;  ///< index of the body from which the pose of the root link follows, or kNone

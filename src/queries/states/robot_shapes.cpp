@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "hgrid_proximity/refusal.h"
 #include "narrow/inner_spheres.h"
@@ -68,63 +70,106 @@ std::vector<Sphere> spheresInside(const BodyShape& shape, const Pose& frame_from
 }
 
 RobotShapes::RobotShapes(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& robot,
-                         const std::vector<std::string>& group, const std::string& world_frame, const QueryScope& scope)
+                         const StateCheckerOptions& options, const QueryScope& scope)
     : is_own_(snapshot.structure().bodies.size()) {
   addLinks(snapshot, kinematics, robot);
-  addAttached(snapshot, kinematics, world_frame);
-  choose(kinematics, group);
+  addAttached(snapshot, kinematics, robot.empty(), options.world_frame);
+  chooseGroup(kinematics, options.group);
+  chooseRobots(snapshot, options.robots);
   addShapes(snapshot, scope);
   addSelfPairs(snapshot.structure().filter);
 }
 
 void RobotShapes::addLinks(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& robot) {
   const BodyList& bodies = snapshot.structure().bodies;
+  const std::vector<std::string>& links = kinematics.links();
+  std::map<std::string, std::uint32_t> link_of_body;  // by the name of the body
+  std::map<std::string, std::size_t> links_of_robot;  // number of links, by the name of the robot
+  std::set<std::string> present;                      // names of the robots that have bodies
+  for (std::uint32_t link = 0; link < links.size(); ++link) {
+    const std::string name = robot.empty() ? links[link] : robot + "/" + links[link];
+    link_of_body[name] = link;
+    ++links_of_robot[name.substr(0, name.find('/'))];
+  }
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];
-    if (body.kind != BodyKind::link || body.robot != robot) continue;
-    const std::vector<std::string>& links = kinematics.links();
-    if (body.link >= links.size() || body.name != robot + "/" + links[body.link] ||
-        (body.links && body.links->size() != links.size())) {
+    const auto of_robot = links_of_robot.find(body.robot);
+    if (body.kind != BodyKind::link || of_robot == links_of_robot.end()) continue;
+    const auto found = link_of_body.find(body.name);
+    const bool is_same = found != link_of_body.end() && (robot.empty() || found->second == body.link) &&
+                         (!body.links || body.links->size() == of_robot->second);
+    if (!is_same) {
       throw Refusal(Code::conflict, "'" + printable(body.name) +
                                         "' is not the same link in the snapshot and in the model of the joints; use "
                                         "the model from which the robot of the snapshot was loaded");
     }
-    bodies_.push_back({i, kinematics.groupOfLink()[body.link], true, kinematics.groupFromLink()[body.link]});
+    const std::uint32_t link = found->second;
+    bodies_.push_back({i, i, kinematics.groupOfLink()[link], true, kinematics.groupFromLink()[link]});
     is_own_[i] = true;
+    present.insert(body.robot);
   }
-  if (!bodies_.empty()) return;
-  throw Refusal(Code::unknown_id, "robot '" + printable(robot) +
-                                      "' has no links in the snapshot; it must be loaded before its states "
-                                      "can be checked");
+  for (const auto& [name, count] : links_of_robot) {
+    if (name.empty() || present.count(name) > 0) continue;  // the world link of joined robots has no name
+    throw Refusal(Code::unknown_id, "robot '" + printable(name) +
+                                        "' has no links in the snapshot; it must be loaded before its states "
+                                        "can be checked");
+  }
 }
 
 /// Adds the obstacles that follow the frame of a link. An obstacle in the frame of a fixed link rests in the world.
-void RobotShapes::addAttached(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& world_frame) {
+void RobotShapes::addAttached(const Snapshot& snapshot, const Kinematics& kinematics, bool joined,
+                              const std::string& world_frame) {
+  struct LinkOfFrame {
+    std::uint32_t link;  // index into Kinematics::links()
+    std::uint32_t body;  // index into Structure::bodies of a link of the same robot
+  };
   const BodyList& bodies = snapshot.structure().bodies;
-  std::map<std::string, std::uint32_t> link_of_frame;
-  std::vector<bool> is_fixed(kinematics.state().groups.size());
-  const Body& some = bodies[bodies_.front().body];
-  const std::string prefix = prefixOf(some.frame, kinematics.links()[some.link]);
-  for (std::uint32_t link = 0; link < kinematics.links().size(); ++link) {
-    link_of_frame[prefix + kinematics.links()[link]] = link;
-  }
+  const std::vector<std::string>& links = kinematics.links();
+  std::map<std::string, LinkOfFrame> link_of_frame;
+  std::set<std::string> seen;
+  std::set<std::pair<std::string, std::uint32_t>> fixed;  // names of robots with the rigid groups that cannot move
   for (const RobotBody& own : bodies_) {
-    if (bodies[own.body].mobility == Mobility::fixed) is_fixed[own.group] = true;
+    const Body& body = bodies[own.body];
+    if (body.mobility == Mobility::fixed) fixed.emplace(body.robot, own.group);
+    if (!seen.insert(body.robot).second) continue;
+    const std::string robot = body.robot + "/", before = joined ? robot : "";
+    const std::string prefix = prefixOf(body.frame, body.name.substr(robot.size()));
+    for (std::uint32_t link = 0; link < links.size(); ++link) {
+      if (links[link].rfind(before, 0) != 0) continue;
+      link_of_frame[prefix + links[link].substr(before.size())] = {link, own.body};
+    }
   }
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];
     if (body.kind != BodyKind::obstacle || body.mobility == Mobility::fixed || body.frame == world_frame) continue;
     const auto found = link_of_frame.find(body.frame);
     if (found == link_of_frame.end()) continue;
-    const std::uint32_t group = kinematics.groupOfLink()[found->second];
-    if (is_fixed[group]) continue;
-    bodies_.push_back({i, group, true, kinematics.groupFromLink()[found->second] * body.frame_from_body});
+    const LinkOfFrame& frame = found->second;
+    const std::uint32_t group = kinematics.groupOfLink()[frame.link];
+    if (fixed.count({bodies[frame.body].robot, group}) > 0) continue;
+    bodies_.push_back({i, frame.body, group, true, kinematics.groupFromLink()[frame.link] * body.frame_from_body});
     is_own_[i] = true;
   }
 }
 
-/// Decides which bodies count: those that a variable of the group moves.
-void RobotShapes::choose(const Kinematics& kinematics, const std::vector<std::string>& group) {
+/// Lets the bodies of all robots except these not count. An empty list changes nothing.
+void RobotShapes::chooseRobots(const Snapshot& snapshot, const std::vector<std::string>& robots) {
+  if (robots.empty()) return;
+  const auto robotOf = [&](const RobotBody& own) -> const std::string& {
+    return snapshot.structure().bodies[own.own_link].robot;
+  };
+  for (const std::string& name : robots) {
+    const auto is_of = [&](const RobotBody& own) { return robotOf(own) == name; };
+    if (std::any_of(bodies_.begin(), bodies_.end(), is_of)) continue;
+    throw Refusal(Code::unknown_id, "robot '" + printable(name) + "' is not among the robots that are checked");
+  }
+  for (RobotBody& own : bodies_) {
+    if (std::find(robots.begin(), robots.end(), robotOf(own)) == robots.end()) own.counts = false;
+  }
+}
+
+/// Lets only the bodies count that a variable of the group moves. An empty list changes nothing.
+void RobotShapes::chooseGroup(const Kinematics& kinematics, const std::vector<std::string>& group) {
   if (group.empty()) return;
   std::vector<bool> is_chosen(kinematics.variables().size());
   for (const std::string& name : group) {

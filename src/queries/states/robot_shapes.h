@@ -7,16 +7,18 @@
 #include "bodies/forward_kinematics.h"
 #include "hgrid_proximity/geometry/sphere.h"
 #include "hgrid_proximity/queries/query_scope.h"
+#include "hgrid_proximity/queries/state_checker.h"
 #include "queries/states/tilted_box.h"
 
 namespace hgrid {
 
 /// A body that the joints of the robot move: one of its links, or an obstacle that is attached to a link.
 struct RobotBody {
-  std::uint32_t body;    ///< index into Structure::bodies
-  std::uint32_t group;   ///< rigid group of the robot
-  bool counts;           ///< whether a variable of the group that was asked for moves it
-  Pose group_from_body;  ///< pose of the body in the frame of its group
+  std::uint32_t body;      ///< index into Structure::bodies
+  std::uint32_t own_link;  ///< index into Structure::bodies of a link of the same robot; for a link, the link itself
+  std::uint32_t group;     ///< rigid group of the robot
+  bool counts;             ///< whether its contacts with all bodies are looked for; false: only with bodies that count
+  Pose group_from_body;    ///< pose of the body in the frame of its group
 };
 
 /// A shape of such a body.
@@ -40,15 +42,16 @@ struct SelfPair {
   std::uint32_t first, second;
 };
 
-/// The shapes that move with the joints of one robot, and their pairs that the pair filter does not switch off.
+/// The shapes that move with the joints of one robot, or of several joined robots, and their pairs that the pair filter
+/// does not switch off.
 class RobotShapes {
  public:
-  /// @param group        StateCheckerOptions::group
-  /// @param world_frame  StateCheckerOptions::world_frame
+  /// @param robot    name of the robot in the snapshot; empty: `kinematics` are those of joinRobots()
+  /// @param options  which bodies count, and the name of the world frame
   /// @throws Refusal unknown_id if the snapshot has no links of this robot, or the robot has no variable of the group
   /// @throws Refusal conflict if its links are not those of `kinematics`
   RobotShapes(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& robot,
-              const std::vector<std::string>& group, const std::string& world_frame, const QueryScope& scope);
+              const StateCheckerOptions& options, const QueryScope& scope);
 
   const std::vector<RobotBody>& bodies() const { return bodies_; }
   /// Returns the shapes. First come the shapes of the bodies that count.
@@ -68,8 +71,9 @@ class RobotShapes {
 
  private:
   void addLinks(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& robot);
-  void addAttached(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& world_frame);
-  void choose(const Kinematics& kinematics, const std::vector<std::string>& group);
+  void addAttached(const Snapshot& snapshot, const Kinematics& kinematics, bool joined, const std::string& world_frame);
+  void chooseGroup(const Kinematics& kinematics, const std::vector<std::string>& group);
+  void chooseRobots(const Snapshot& snapshot, const std::vector<std::string>& robots);
   void addShapes(const Snapshot& snapshot, const QueryScope& scope);
   void addShapesOf(const Snapshot& snapshot, const QueryScope& scope, bool counts);
   void addSelfPairs(const PairFilter& filter);

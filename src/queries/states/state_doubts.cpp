@@ -14,10 +14,11 @@
 namespace hgrid {
 namespace {
 
-/// Returns whether the pair filter switches off a body with all bodies of the robot.
+/// Returns whether the pair filter switches off a body with all bodies of the robot that count.
 bool isAllowed(const Snapshot& snapshot, const RobotShapes& robot, std::uint32_t body) {
-  return std::all_of(robot.bodies().begin(), robot.bodies().end(),
-                     [&](const RobotBody& own) { return snapshot.structure().filter.allowed(own.body, body); });
+  return std::all_of(robot.bodies().begin(), robot.bodies().end(), [&](const RobotBody& own) {
+    return !own.counts || snapshot.structure().filter.allowed(own.body, body);
+  });
 }
 
 /// Returns whether a shape of the robot may touch a sphere [m, world].
@@ -54,14 +55,17 @@ bool comesNear(const RobotInState& robot, std::uint32_t body, double reach) {
   return false;
 }
 
-/// Returns the worst state of the links that move together with an attached obstacle; late, if no link has shapes.
+/// Returns the worst state of the links of its robot that move together with an attached obstacle; late, if no link has
+/// shapes.
 Freshness worstOfLinks(const Snapshot& snapshot, const RobotShapes& robot, std::uint32_t attached) {
+  const BodyList& bodies = snapshot.structure().bodies;
   Freshness worst = Freshness::late;
   const auto own = std::find_if(robot.bodies().begin(), robot.bodies().end(),
                                 [&](const RobotBody& one) { return one.body == attached; });
   for (const RobotBody& other : robot.bodies()) {
-    const bool is_link = snapshot.structure().bodies[other.body].kind == BodyKind::link;
-    if (is_link && other.group == own->group) worst = std::max(worst, snapshot.poses()[other.body].state);
+    const Body& link = bodies[other.body];
+    const bool is_of_robot = link.kind == BodyKind::link && link.robot == bodies[own->own_link].robot;
+    if (is_of_robot && other.group == own->group) worst = std::max(worst, snapshot.poses()[other.body].state);
   }
   return worst;
 }

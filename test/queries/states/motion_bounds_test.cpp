@@ -117,7 +117,7 @@ TEST(MotionBounds, NoPointMovesFartherAndNoDistanceChangesMore) {
     plan.obstacles = 0;
     const StateWorld world = randomStateWorld(random, plan);
     if (world.kinematics().variables().empty()) continue;
-    const RobotShapes robot(*world.snapshot, world.kinematics(), "robot", {}, "", {});
+    const RobotShapes robot(*world.snapshot, world.kinematics(), "robot", {}, {});
     const RandomEdges edges(random, world.checker(), world.model, 2);
     for (std::size_t i = 0; i < edges.edges.size(); ++i) {
       Bounded bounded(world, robot, edges.oracle(i));
