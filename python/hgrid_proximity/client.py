@@ -273,6 +273,8 @@ class Proximity:
             robot: name of the robot; otherwise the robot that has these joints
             group: name of a group of the SRDF: only contacts of what its joints move count
             base: geometry_msgs/Pose of the root link in the world frame; otherwise it is where tf says
+            others: {"robot/joint": position} [rad or m] joints of other robots; their other joints are where tf says. Only
+                their contacts with the checked robot are looked for
             ignore: globs over the names of bodies that are not checked
             lease: `response.lease` of an earlier answer, to ask the same state of the world
             keep: [s] how long the node should keep this state of the world for further requests, counted from this one
@@ -401,12 +403,14 @@ class Proximity:
         robot: str = "",
         group: str = "",
         base=None,
+        others=None,
         ignore: Union[str, Iterable[str]] = (),
         lease=None,
         keep: float = 0.0,
         max_time: float = 0.0,
     ):
         request.robot, request.group, request.joint_names = robot, group, joint_names
+        request.other_joint_names, request.other_positions = list(others or {}), list((others or {}).values())
         request.ignore, request.max_time, request.use_base = globs(ignore), max_time, base is not None
         if base is not None:
             request.base = base

@@ -10,7 +10,7 @@ import numpy
 import rospy
 import rosunit
 from geometry_msgs.msg import Pose
-from hgrid_proximity import obstacles
+from hgrid_proximity import obstacles, robots, srv
 from hgrid_proximity.client import Proximity
 from hgrid_proximity.errors import Refused
 from hgrid_proximity.msg import CodeNames, Lease, UnknownReason
@@ -193,6 +193,81 @@ class CheckStates(unittest.TestCase):
         self.assertEqual(len({lease.sequence for lease in kept}), 16)
         self.assertEqual(leases[-1].lasts.to_sec(), 0.0, "there is no room for more")
         wait(lambda: self.states([[0, 0]], keep=0.1).response.lease.lasts.to_sec() > 0, "the end of a lease")
+
+    def add_twin(self):
+        self.arm.twin_at = 3.0
+        self.proximity.apply_robots(robots.add("twin", like="robot"))
+        wait(lambda: self.proximity.pairs().usable, "the frames of the twin")
+
+    def remove_twin(self):
+        self.proximity.apply_robots(robots.remove("twin"))
+        self.arm.twin_at = None
+
+    # Claim: another robot, and what it holds, is where the request puts it.
+    def test_another_robot_can_be_given_other_positions(self):
+        self.add_twin()
+        try:
+            check = lambda rows, **options: self.states(rows, robot="robot", **options)
+            facing = lambda slide: {"twin/shoulder": math.pi, "twin/slide": slide}
+            self.assertTrue(check([[0, 0.5]]).clear[0], "on tf, the twin faces away")
+            self.assertTrue(check([[0, 0.5]], others=facing(0.2)).clear[0])
+            found = check([[0, 0.5], [TO_POST, 0.5], [1, 0.5]], others=facing(0.45), max_clearance=0.5)
+            self.assertEqual(found.hit.tolist(), [True, True, False])
+            self.assertEqual([found.pair(i) for i in range(2)],
+                             [("robot/hand", "twin/hand"), ("robot/arm", "obstacle/post")])
+            near = check([[0, 0.5]], others=facing(0.2), max_clearance=0.5)
+            self.assertAlmostEqual(near.clearance[0], 0.1, delta=1e-6)
+            self.assertEqual(near.pair(0), ("robot/hand", "twin/hand"))
+            self.assertTrue(check([[0, 0.5]], others={"twin/shoulder": math.pi}).clear[0], "its slide is at 0.25 m")
+            edge = self.edges([[-1, 0.5]], [[1, 0.5]], robot="robot", others=facing(0.45))
+            self.assertEqual((edge.hit.tolist(), edge.pair(0)), ([True], ("robot/hand", "twin/hand")))
+            self.assertTrue(self.edges([[-1, 0.5]], [[1, 0.5]], robot="robot", others=facing(0.2)).clear[0])
+            held = obstacles.add("rod", obstacles.sphere(0.1), position=(0.25, 0.0, 0.0), frame="twin/hand")
+            self.proximity.apply_obstacles(held)
+            self.assertEqual(check([[0, 0.5]], others=facing(0.2)).pair(0), ("robot/hand", "obstacle/rod"))
+            self.assertTrue(check([[0, 0.5]]).clear[0])
+        finally:
+            self.proximity.apply_obstacles(obstacles.remove("rod"))
+            self.remove_twin()
+
+    # Claim: while nobody knows where another robot stands, no state is CLEAR, even if the request gives all its joints.
+    def test_another_robot_whose_place_is_old_makes_states_unknown(self):
+        self.add_twin()
+        try:
+            shoulder, both = {"twin/shoulder": math.pi}, {"twin/shoulder": math.pi, "twin/slide": 0.2}
+            check = lambda others: self.states([[0, 0.5], [TO_POST, 0.5]], robot="robot", others=others)
+            self.assertEqual(check(both).clear.tolist(), [True, False])
+
+            def is_clear(others):
+                try:
+                    return check(others).clear[0]
+                except Refused as refused:
+                    self.assertEqual(refused.code, "EXTRAPOLATION")
+                    return False
+
+            self.arm.twin_publishes = False
+            for others in (shoulder, both):
+                wait(lambda: not is_clear(others), "the end of the knowledge")
+        finally:
+            self.arm.twin_publishes = True
+            self.remove_twin()
+
+    def test_joints_of_other_robots_that_are_not_valid_are_refused_by_name(self):
+        self.add_twin()
+        try:
+            refused = lambda code, words, others: self.assert_refused(
+                code, lambda: self.states([[0, 0.5]], robot="robot", others=others), words)
+            refused("UNKNOWN_ID", "elbow", {"twin/elbow": 0.0})
+            refused("UNKNOWN_ID", "nobody", {"nobody/shoulder": 0.0})
+            refused("UNKNOWN_ID", "robot/joint", {"shoulder": 0.0})
+            refused("CONFLICT", "joint_names", {"robot/shoulder": 0.0})
+            refused("NONFINITE", "finite", {"twin/shoulder": math.nan})
+            response = self.proximity._services[srv.CheckStates](srv.CheckStatesRequest(
+                robot="robot", joint_names=JOINTS, positions=[0, 0.5], other_joint_names=["twin/slide"]), 10.0)
+            self.assertEqual(response.code.name, "OUT_OF_RANGE")
+            self.assertIn("other_positions 0", response.code.text)
+        finally:
+            self.remove_twin()
 
     def test_a_group_with_a_virtual_joint_is_the_whole_robot(self):
         self.assertTrue(self.states([[TO_POST, 0.5]], group="whole").hit[0])

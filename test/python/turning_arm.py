@@ -21,6 +21,8 @@ class Arm:
 
     def __init__(self):
         self.angle, self.publishes = 0.0, True
+        self.twin_at = None  # [m] x of the base of the robot 'twin', an equal arm at rest; None: nobody publishes it
+        self.twin_publishes = True
         self._static = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
         self._static.publish(TFMessage([transform("world", "base", 0.0), transform("hand", "tcp", 0.0)]))
         self._moving = rospy.Publisher("/tf", TFMessage, queue_size=1)
@@ -31,6 +33,9 @@ class Arm:
             turned = (math.sin(self.angle / 2), math.cos(self.angle / 2))
             poses = [transform("base", "arm", 0.0, turned), transform("arm", "hand", 1.25),
                      transform("hand", "finger", 0.25)]
+            if self.twin_at is not None and self.twin_publishes:
+                poses += [transform("world", "twin/base", self.twin_at), transform("twin/base", "twin/arm", 0.0),
+                          transform("twin/arm", "twin/hand", 1.25), transform("twin/hand", "twin/finger", 0.25)]
             try:
                 if self.publishes:
                     self._moving.publish(TFMessage(poses))

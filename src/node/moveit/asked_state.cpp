@@ -143,7 +143,7 @@ AskedState askedState(const State& state, const std::string& group, const Tick& 
   PresentJoints joints = presentJoints(asked.robot, given.all(), tick, transforms);
   asked.batch.positions = std::move(joints.values);
   if (asked.doubt.empty()) asked.doubt = std::move(joints.doubt);
-  if (asked.doubt.empty()) asked.doubt = followerOf(asked.robot, given.all(), moves_root, tick, transforms);
+  if (asked.doubt.empty()) asked.doubt = followerOf(asked.robot, given.all(), moves_root, {}, tick, transforms);
   // The checker takes the pose of the root link from a body that is rigidly connected to it, if there is one.
   if (!moves_root && asked.robot.groups.front().members.empty()) {
     const std::string& frame = asked.robot.root_frame;

@@ -20,7 +20,8 @@ constexpr double kFarthest = 10.0;  // [m] upper limit of max_clearance
 
 template <class Request>
 AskedStates askedOf(const Request& request) {
-  AskedStates asked{request.robot, request.group, request.joint_names, request.ignore, {}};
+  AskedStates asked{request.robot, request.group,           request.joint_names,
+                    request.ignore, request.other_joint_names, request.other_positions, {}};
   if (request.use_base) asked.base = request.base;
   return asked;
 }

@@ -27,17 +27,16 @@ std::vector<bool> movedGroups(const LoadedRobot& robot, const std::map<std::stri
 }  // namespace
 
 std::string followerOf(const LoadedRobot& robot, const std::map<std::string, double>& given, bool moves_root,
-                       const Tick& tick, const TransformLookup& transforms) {
-  const RobotModel& model = robot.read->model;
-  std::map<std::string, std::uint32_t> own;  // rigid groups, by the frames of their links
-  const std::string prefix = robot.root_frame.substr(0, robot.root_frame.size() - model.links.front().name.size());
-  for (const RobotLink& link : model.links) {
-    if (prefix + link.name != tick.world_frame) own[prefix + link.name] = link.rigid_group;
-  }
+                       const std::string& placed, const Tick& tick, const TransformLookup& transforms) {
+  std::map<std::string, std::uint32_t> own = groupsOfFrames(robot);
+  own.erase(tick.world_frame);
   const std::vector<bool> moved = movedGroups(robot, given, moves_root);
   std::set<std::string> seen;
-  const auto follows = [&](const std::string& frame) {
-    if (frame == tick.world_frame || own.count(frame) > 0 || !seen.insert(frame).second) return false;
+  // StateChecker moves obstacles in the frame of a link, but no robots and maps in such a frame.
+  const auto follows = [&](const std::string& frame, bool is_obstacle) {
+    const auto link = own.find(frame);
+    if (link != own.end()) return !is_obstacle && moved[link->second];
+    if (frame == tick.world_frame || !seen.insert(frame).second) return false;
     const std::string above = transforms.nearestAbove(frame, own);
     return !above.empty() && moved[own.at(above)];
   };
@@ -46,12 +45,13 @@ std::string followerOf(const LoadedRobot& robot, const std::map<std::string, dou
            "'; its pose in the state is not known";
   };
   for (const auto& [name, entry] : *tick.robots) {
-    if (!entry.inWorld() || name == robot.name) continue;
-    if (follows(entry.model->root_frame)) return sentence("robot '" + name + "'", entry.model->root_frame);
+    if (!entry.inWorld() || name == robot.name || name == placed) continue;
+    if (follows(entry.model->root_frame, false)) return sentence("robot '" + name + "'", entry.model->root_frame);
   }
   for (const Body& body : tick.snapshot->structure().bodies) {
     const bool may_follow = body.kind == BodyKind::obstacle || body.kind == BodyKind::map;
-    if (may_follow && body.mobility != Mobility::fixed && follows(body.frame)) return sentence(body.name, body.frame);
+    if (!may_follow || body.mobility == Mobility::fixed) continue;
+    if (follows(body.frame, body.kind == BodyKind::obstacle)) return sentence(body.name, body.frame);
   }
   return {};
 }

@@ -15,7 +15,8 @@ namespace hgrid {
 /// Empty: there is none.
 /// @param given       values of the state, by name of the variable; the other joints stay where they are
 /// @param moves_root  whether the state moves the root link
+/// @param placed      name of a robot whose root link is given and thus does not follow; empty: none
 std::string followerOf(const LoadedRobot& robot, const std::map<std::string, double>& given, bool moves_root,
-                       const Tick& tick, const TransformLookup& transforms);
+                       const std::string& placed, const Tick& tick, const TransformLookup& transforms);
 
 }  // namespace hgrid

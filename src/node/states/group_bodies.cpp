@@ -12,8 +12,22 @@ std::uint32_t groupAbove(const LoadedRobot& robot, std::uint32_t group) {
   return parent < 0 ? group : model.links[static_cast<std::size_t>(parent)].rigid_group;
 }
 
-GroupBodies::GroupBodies(const LoadedRobot& robot)
+std::map<std::string, std::uint32_t> groupsOfFrames(const LoadedRobot& robot) {
+  const RobotModel& model = robot.read->model;
+  const std::string prefix = robot.root_frame.substr(0, robot.root_frame.size() - model.links.front().name.size());
+  std::map<std::string, std::uint32_t> groups;
+  for (const RobotLink& link : model.links) groups[prefix + link.name] = link.rigid_group;
+  return groups;
+}
+
+GroupBodies::GroupBodies(const LoadedRobot& robot, const Snapshot& snapshot)
     : robot_(robot), below_(robot.groups.size()), has_bodies_(robot.groups.size()) {
+  const std::map<std::string, std::uint32_t> group_of_frame = groupsOfFrames(robot);
+  for (const Body& body : snapshot.structure().bodies) {
+    if (body.kind != BodyKind::obstacle || body.mobility == Mobility::fixed) continue;
+    const auto group = group_of_frame.find(body.frame);
+    if (group != group_of_frame.end()) has_bodies_[group->second] = true;
+  }
   for (auto group = static_cast<std::uint32_t>(robot.groups.size()); group-- > 0;) {  // a parent has a smaller index
     const std::uint32_t above = groupAbove(robot, group);
     if (!robot.groups[group].members.empty()) has_bodies_[group] = true;

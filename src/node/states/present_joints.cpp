@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "node/states/group_bodies.h"
+#include "queries/doubtful_body.h"
 
 namespace hgrid {
 namespace {
@@ -33,7 +34,7 @@ class Reader {
  public:
   Reader(const LoadedRobot& robot, const std::map<std::string, double>& given, const Tick& tick,
          const TransformLookup& transforms)
-      : robot_(robot), model_(robot.read->model), given_(given), tick_(tick), transforms_(transforms), bodies_(robot) {}
+      : robot_(robot), model_(robot.read->model), given_(given), tick_(tick), transforms_(transforms), bodies_(robot, *tick.snapshot) {}
 
   PresentJoints read() {
     for (const RobotLink& link : model_.links) {
@@ -119,8 +120,23 @@ PresentPose presentPose(const LoadedRobot& robot, const std::string& frame, cons
   PresentPose pose{
       transforms.atOrNewest(tick.world_frame, frame, tick.made.ros, tick.settings->params.stale_after, what), {}};
   const bool is_static = transforms.isKnown(tick.world_frame, frame, Time::max() / 2);  // static poses have no time
-  if (!is_static) pose.doubt = GroupBodies(robot).doubtAbout(0, *tick.snapshot);
+  if (!is_static) pose.doubt = GroupBodies(robot, *tick.snapshot).doubtAbout(0, *tick.snapshot);
   return pose;
+}
+
+PresentPose presentRoot(const LoadedRobot& robot, const Tick& tick, const TransformLookup& transforms) {
+  const Snapshot& snapshot = *tick.snapshot;
+  for (const auto& member : robot.groups.front().members) {
+    const std::uint32_t index = snapshot.structure().find(robot.bodies[member.first].name);
+    if (index == Structure::kNone || snapshot.poses()[index].state == Freshness::unplaced) continue;
+    const Body& body = snapshot.structure().bodies[index];
+    const BodyPose& pose = snapshot.poses()[index];
+    PresentPose root{pose.world_from_body * robot.read->model.links[body.link].group_from_link.inverse(), {}};
+    if (pose.reach > 0.0 || pose.state >= Freshness::frozen) root.doubt = doubtOf(body, pose);
+    return root;
+  }
+  const std::string& frame = robot.root_frame;
+  return presentPose(robot, frame, "the root frame '" + printable(frame) + "'", tick, transforms);
 }
 
 }  // namespace hgrid

@@ -40,4 +40,8 @@ struct PresentPose {
 PresentPose presentPose(const LoadedRobot& robot, const std::string& frame, const std::string& what, const Tick& tick,
                         const TransformLookup& transforms);
 
+/// Returns the pose of the root link of a robot: from a body that is rigidly connected to it, or else from tf.
+/// @throws Refusal unknown_frame, extrapolation if the pose is not known
+PresentPose presentRoot(const LoadedRobot& robot, const Tick& tick, const TransformLookup& transforms);
+
 }  // namespace hgrid

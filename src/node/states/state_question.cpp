@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "hgrid_proximity/bodies/joined_robots.h"
 #include "node/messages/from_messages.h"
 #include "node/queries/request_checks.h"
 #include "node/states/followers.h"
@@ -33,7 +34,7 @@ StateCheckerOptions optionsOf(const AskedStates& asked, const LoadedRobot& robot
   return options;
 }
 
-/// Checks the names of the columns. @throws Refusal limit, unknown_id
+/// Checks names of variables. @throws Refusal dup_id, unknown_id
 void checkJoints(const std::vector<std::string>& joints, const Kinematics& kinematics, const std::string& robot) {
   const std::size_t most = kinematics.variables().size();
   for (const std::string& joint : joints) {
@@ -45,6 +46,68 @@ void checkJoints(const std::vector<std::string>& joints, const Kinematics& kinem
   throw Refusal(Code::dup_id, "the request names " + std::to_string(joints.size()) + " joints, but robot '" + robot +
                                   "' has only " + std::to_string(most) + " joint values; each must occur once");
 }
+
+/// The joints of other robots that a request gives: for each robot, the values of its variables.
+using OtherJoints = std::map<std::string, std::map<std::string, double>>;
+
+/// Reads the joints of other robots from a request. @throws Refusal out_of_range, unknown_id, not_ready, conflict, dup_id
+OtherJoints otherJoints(const AskedStates& asked, const std::string& robot, const Tick& tick) {
+  if (asked.other_joint_names.size() != asked.other_positions.size()) {
+    throw Refusal(Code::out_of_range,
+                  "other_joint_names has " + std::to_string(asked.other_joint_names.size()) +
+                      " entries, and other_positions " + std::to_string(asked.other_positions.size()) +
+                      "; give one position for each name");
+  }
+  OtherJoints others;
+  for (std::size_t i = 0; i < asked.other_joint_names.size(); ++i) {
+    const std::string& name = asked.other_joint_names[i];
+    const std::string other = name.substr(0, name.find('/'));
+    const std::string what = "'" + printable(name) + "' in other_joint_names ";
+    if (other.size() == name.size()) throw Refusal(Code::unknown_id, what + "must be written as robot/joint");
+    if (other == robot) {
+      throw Refusal(Code::conflict, what + "is a joint of the robot that is checked; name it in joint_names instead");
+    }
+    const std::string joint = name.substr(other.size() + 1);
+    checkJoints({joint}, *robotNamed(other, tick).read->joints->kinematics, other);
+    if (!others[other].emplace(joint, asked.other_positions[i]).second) {
+      throw Refusal(Code::dup_id, what + "occurs twice; each joint may occur only once");
+    }
+  }
+  return others;
+}
+
+/// The question about several robots: the checked robot, and other robots whose joints the request gives.
+class JoinedQuestion {
+ public:
+  /// Puts the name of the robot before the names of the joints in `batch`.
+  JoinedQuestion(const LoadedRobot& robot, const Pose& world_from_root, StateBatch& batch)
+      : robot_(robot), joined_{{robot.name, &robot.read->model, world_from_root}}, batch_(batch) {
+    for (std::string& joint : batch.joints) joint = robot.name + "/" + joint;
+  }
+  /// Adds a robot and the values of its variables. @returns why nobody knows where the robot would be; empty: it is known
+  /// @param placed  name of the checked robot if its root link is given, otherwise empty
+  std::string add(const LoadedRobot& other, const std::map<std::string, double>& given, const std::string& placed,
+                  const Tick& tick, const TransformLookup& transforms) {
+    const PresentJoints present = presentJoints(other, given, tick, transforms);
+    batch_.others.insert(batch_.others.end(), present.values.begin(), present.values.end());
+    const PresentPose root = presentRoot(other, tick, transforms);
+    joined_.push_back({other.name, &other.read->model, root.world_from_frame});
+    if (!present.doubt.empty()) return present.doubt;
+    return root.doubt.empty() ? followerOf(other, given, false, placed, tick, transforms) : root.doubt;
+  }
+  /// Returns a checker for which only bodies of the checked robot count.
+  StateChecker checker(StateCheckerOptions options, const Tick& tick,
+                       std::shared_ptr<const NarrowPhase> measures) const {
+    for (std::string& variable : options.group) variable = robot_.name + "/" + variable;
+    options.robots = {robot_.name};
+    return {tick.snapshot, Kinematics(joinRobots(joined_)), "", std::move(measures), options};
+  }
+
+ private:
+  const LoadedRobot& robot_;
+  std::vector<JoinedRobot> joined_;
+  StateBatch& batch_;
+};
 
 /// Checks that something of the robot is left to be checked. Otherwise every state would be CLEAR.
 void checkCounting(const StateChecker& checker, const AskedStates& asked) {
@@ -80,15 +143,27 @@ StateQuestion stateQuestion(const AskedStates& asked, std::vector<double> positi
   batch.others = std::move(present.values);
   std::string doubt = std::move(present.doubt);
   if (asked.base) batch.world_from_root = fromPose(*asked.base, "the base of the robot");
-  if (doubt.empty()) doubt = followerOf(robot, given, asked.base.has_value(), tick, transforms);
-  // The checker takes the pose of the root link from a body that is rigidly connected to it, if there is one.
-  if (!asked.base && robot.groups.front().members.empty()) {
-    const std::string& frame = robot.root_frame;
-    const PresentPose root = presentPose(robot, frame, "the root frame '" + printable(frame) + "'", tick, transforms);
+  if (doubt.empty()) doubt = followerOf(robot, given, asked.base.has_value(), {}, tick, transforms);
+  const OtherJoints others = otherJoints(asked, robot.name, tick);
+  // Of one robot alone, the checker takes the pose of the root link from a body that is rigidly connected to it.
+  if (!asked.base && (robot.groups.front().members.empty() || !others.empty())) {
+    const PresentPose root = presentRoot(robot, tick, transforms);
     batch.world_from_root = root.world_from_frame;
     if (doubt.empty()) doubt = root.doubt;
   }
-  StateChecker checker(tick.snapshot, kinematics, robot.name, std::move(narrow_phase), optionsOf(asked, robot, tick));
+  const StateCheckerOptions options = optionsOf(asked, robot, tick);
+  if (others.empty()) {
+    StateChecker checker(tick.snapshot, kinematics, robot.name, std::move(narrow_phase), options);
+    checkCounting(checker, asked);
+    return {std::move(checker), std::move(batch), std::move(doubt)};
+  }
+  JoinedQuestion joined(robot, *batch.world_from_root, batch);
+  batch.world_from_root.reset();  // the root link of joined robots is the world
+  for (const auto& [other, values] : others) {
+    const std::string doubt_of_other = joined.add(robotNamed(other, tick), values, asked.base ? robot.name : "", tick, transforms);
+    if (doubt.empty()) doubt = doubt_of_other;
+  }
+  StateChecker checker = joined.checker(options, tick, std::move(narrow_phase));
   checkCounting(checker, asked);
   return {std::move(checker), std::move(batch), std::move(doubt)};
 }

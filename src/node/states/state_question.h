@@ -16,25 +16,29 @@ namespace hgrid {
 
 /// What requests about states and edges have in common.
 struct AskedStates {
-  const std::string& robot;                     ///< name of the robot; empty: the one that has these joints
-  const std::string& group;                     ///< name of a group of its SRDF; empty: all joints
-  const std::vector<std::string>& joint_names;  ///< names of variables, with or without the name of the robot
-  const std::vector<std::string>& ignore;       ///< globs over the names of bodies that do not count
-  std::optional<geometry_msgs::Pose> base;      ///< [m, world frame] pose of the root link; nullopt: where tf says
+  const std::string& robot;                           ///< name of the robot; empty: the one that has these joints
+  const std::string& group;                           ///< name of a group of its SRDF; empty: all joints
+  const std::vector<std::string>& joint_names;        ///< names of variables, with or without the name of the robot
+  const std::vector<std::string>& ignore;             ///< globs over the names of bodies that do not count
+  const std::vector<std::string>& other_joint_names;  ///< names of variables of other robots, as robot/variable
+  const std::vector<double>& other_positions;         ///< [rad or m] their values
+  std::optional<geometry_msgs::Pose> base;            ///< [m, world frame] pose of the root link; nullopt: where tf says
 };
 
 /// A request about states of a robot, prepared for StateChecker.
 struct StateQuestion {
   StateChecker checker;
   StateBatch batch;
-  /// Why nobody knows where the robot or something that moves with it would be; empty: it is known.
+  /// Why nobody knows where the robot, another robot of the request, or something that moves with one of them would be;
+  /// empty: it is known.
   std::string doubt;
 };
 
 /// Prepares a request.
 /// @param positions  rows of values of joint_names
-/// @throws Refusal what robotNamed() or robotWith(), presentJoints(), presentPose(), fromPose() and StateChecker throw;
-/// out_of_range if there are positions but no names of joints
+/// @throws Refusal what robotNamed() or robotWith(), presentJoints(), presentRoot(), fromPose() and StateChecker throw;
+/// out_of_range if there are positions but no names of joints, or not one value for each of other_joint_names;
+/// unknown_id, conflict or dup_id for an entry of other_joint_names
 StateQuestion stateQuestion(const AskedStates& asked, std::vector<double> positions, const Tick& tick,
                             const TransformLookup& transforms, std::shared_ptr<const NarrowPhase> narrow_phase);
 

@@ -61,7 +61,7 @@ namespace {
 
 namespace msg = ::hgrid_proximity;
 
-constexpr std::uint32_t kPinnedVersion = 7;  // interface version of the MD5 sums below
+constexpr std::uint32_t kPinnedVersion = 8;  // interface version of the MD5 sums below
 
 /// A message or service file, its MD5 sum, and the MD5 sum that it must have in this interface version.
 struct Pin {
@@ -112,8 +112,8 @@ const std::vector<Pin>& pins() {
       service<msg::LoadOctomap>("LoadOctomap", "93e62be52a707156933524d97672cc2d"),
       service<msg::QueryBatch>("QueryBatch", "7d59c04f9a167fdf1698108ee85346c5"),
       service<msg::QueryBox>("QueryBox", "8b378a163990ffc39d9443cb21832dd5"),
-      service<msg::CheckEdges>("CheckEdges", "14428008caf993d36d81ba116eb1ec7f"),
-      service<msg::CheckStates>("CheckStates", "9e4cabad4d221bbc6fa6959f85c28f6d"),
+      service<msg::CheckEdges>("CheckEdges", "3cfce5225fb02d943b60318611c91353"),
+      service<msg::CheckStates>("CheckStates", "cb82fcc35a69c98c9b394d7d9c9c0303"),
       service<msg::QueryNearest>("QueryNearest", "1c536a184c73768c2d7173dd305db8f6"),
       service<msg::QuerySegment>("QuerySegment", "83354b4bfa81d8e0a19b2fb48ee25859"),
       service<msg::QueryShape>("QueryShape", "76efaeb6fe39032be58a9723037afe87"),
