@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/measure/median.h"
 #include "processor_time.h"
 #include "running_node.h"
 #include "test/node/support/child_process.h"
@@ -32,11 +33,6 @@ using Clock = std::chrono::steady_clock;
 constexpr int kTurns = 10;       // spans of time into which a comparison is divided
 constexpr double kLonger = 3.0;  // a 99th percentile needs many round trips
 constexpr double kCache = 10.0;  // [s] how long the node keeps transforms; this is also the default
-
-double medianOf(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 void sleepFor(double duration) { std::this_thread::sleep_for(std::chrono::duration<double>(duration)); }
 

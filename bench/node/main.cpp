@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "batch_measurement.h"
 #include "control_measurement.h"
 #include "map_measurement.h"
 #include "measurement.h"
@@ -39,12 +40,12 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "node_testbench");
   std::string json, commit = "unknown";
   double duration = 10.0;  // [s] measured time per world
-  std::string only;        // "" (everything), "worlds", "controls" or "maps"
+  std::string only;        // "" (everything), "worlds", "controls", "maps" or "batches"
   std::string title;       // part of the titles of the worlds that are measured
   for (int i = 1; i < argc; ++i) {
     const std::string option = argv[i];
     if (option == "--quick") duration = 4.0;
-    for (const char* part : {"worlds", "controls", "maps"}) {
+    for (const char* part : {"worlds", "controls", "maps", "batches"}) {
       if (option == std::string("--") + part) only = part;
     }
     if (option == "--world" && i + 1 < argc) only = "worlds", title = argv[++i];
@@ -73,7 +74,12 @@ int main(int argc, char** argv) {
       measurements.push_back(maps.resting);
       measurements.push_back(maps.replaced);
     }
-    if (!json.empty()) writeJson(json, commit, measurements, controls);
+    std::vector<BatchMeasurement> batches;
+    if (only.empty() || only == "batches") {
+      batches = measureBatches(duration);
+      for (const BatchMeasurement& batch : batches) print(batch);
+    }
+    if (!json.empty()) writeJson(json, commit, measurements, controls, batches);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "node_testbench: %s\n", error.what());
     return 1;

@@ -44,41 +44,53 @@ Pose swung(const RobotLink& link, double t) {
   return motion;
 }
 
+/// A robot and the message that moves it.
+struct Moving {
+  RobotModel model;
+  std::string name;
+  tf2_msgs::TFMessage message;
+};
+
+/// Adds a real robot to the parameters and descriptions of a workload.
+Moving addRobot(Workload& workload, const std::string& name) {
+  const test::RealRobot robot = test::realRobot(name);
+  MeshLoader loader(test::meshPolicy());
+  Moving moving{test::readWith(loader, robot.urdf), name, {}};
+  workload.descriptions[name + "_description"] = robot.urdf;
+  workload.descriptions[name + "_semantic"] = robot.srdf;
+  XmlRpc::XmlRpcValue& robots = workload.params["robots"];
+  XmlRpc::XmlRpcValue& entry = robots[robots.valid() ? robots.size() : 0];
+  entry["name"] = name;
+  entry["description"] = name + "_description";
+  entry["semantic"] = name + "_semantic";
+  entry["tf_prefix"] = name;
+  for (std::size_t link = 0; link < moving.model.links.size(); ++link) {
+    moving.message.transforms.push_back(frameOf(moving.model, link, name));
+    workload.bodies += moving.model.links[link].has_collision;
+  }
+  return moving;
+}
+
+/// Returns a workload without robots. Also adds the folder of the robots to ROS_PACKAGE_PATH.
+Workload emptyWorld(const std::string& title, double rate) {
+  const char* others = std::getenv("ROS_PACKAGE_PATH");  // the node needs it to find meshes with package:// paths
+  setenv("ROS_PACKAGE_PATH", (test::sharedData() + ":" + (others == nullptr ? "" : others)).c_str(), 1);
+  Workload workload;
+  workload.title = title;
+  workload.rate = rate;
+  workload.params["rate"] = rate;
+  workload.params["world_frame"] = "world";
+  return workload;
+}
+
 }  // namespace
 
 std::vector<Workload> realRobots(double rate) {
   if (test::sharedData().empty()) return {};
-  const char* others = std::getenv("ROS_PACKAGE_PATH");  // the node needs it to find meshes with package:// paths
-  setenv("ROS_PACKAGE_PATH", (test::sharedData() + ":" + (others == nullptr ? "" : others)).c_str(), 1);
-  Workload workload;
-  workload.title = "UR5, Panda and PR2, distances measured";
-  workload.rate = rate;
+  Workload workload = emptyWorld("UR5, Panda and PR2, distances measured", rate);
   workload.distances = true;
-  workload.params["rate"] = rate;
-  workload.params["world_frame"] = "world";
-  struct Moving {
-    RobotModel model;
-    std::string name;
-    tf2_msgs::TFMessage message;
-  };
   auto robots = std::make_shared<std::vector<Moving>>();
-  for (const std::string name : {"ur5", "panda", "pr2"}) {
-    const test::RealRobot robot = test::realRobot(name);
-    MeshLoader loader(test::meshPolicy());
-    Moving moving{test::readWith(loader, robot.urdf), name, {}};
-    workload.descriptions[name + "_description"] = robot.urdf;
-    workload.descriptions[name + "_semantic"] = robot.srdf;
-    XmlRpc::XmlRpcValue& entry = workload.params["robots"][static_cast<int>(robots->size())];
-    entry["name"] = name;
-    entry["description"] = name + "_description";
-    entry["semantic"] = name + "_semantic";
-    entry["tf_prefix"] = name;
-    for (std::size_t link = 0; link < moving.model.links.size(); ++link) {
-      moving.message.transforms.push_back(frameOf(moving.model, link, name));
-      workload.bodies += moving.model.links[link].has_collision;
-    }
-    robots->push_back(std::move(moving));
-  }
+  for (const std::string name : {"ur5", "panda", "pr2"}) robots->push_back(addRobot(workload, name));
   workload.move = [robots](double t) {
     std::vector<tf2_msgs::TFMessage> messages;
     for (std::size_t number = 0; number < robots->size(); ++number) {
@@ -94,6 +106,29 @@ std::vector<Workload> realRobots(double rate) {
     return messages;
   };
   return {workload};
+}
+
+Workload pandaAmong(const std::vector<OrientedBox>& boxes, double rate) {
+  Workload workload = emptyWorld("Panda among " + std::to_string(boxes.size()) + " boxes", rate);
+  auto robot = std::make_shared<Moving>(addRobot(workload, "panda"));
+  for (std::size_t link = 0; link < robot->model.links.size(); ++link) {
+    setPose(robot->model.links[link].parent_from_joint, robot->message.transforms[link].transform);
+  }
+  setPose(Pose::Identity(), robot->message.transforms[0].transform);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    XmlRpc::XmlRpcValue& obstacle = workload.params["obstacles"][static_cast<int>(i)];
+    const Eigen::Quaterniond turn(boxes[i].world_from_box.linear());
+    obstacle["name"] = "b" + std::to_string(i);
+    obstacle["shapes"][0]["type"] = "box";
+    for (int axis = 0; axis < 3; ++axis) {
+      obstacle["shapes"][0]["size"][axis] = boxes[i].size[axis];
+      obstacle["pose"]["xyz"][axis] = boxes[i].world_from_box.translation()[axis];
+    }
+    for (int k = 0; k < 4; ++k) obstacle["pose"]["quaternion"][k] = turn.coeffs()[k];
+  }
+  workload.bodies += boxes.size();
+  workload.move = [robot](double) { return std::vector<tf2_msgs::TFMessage>{robot->message}; };
+  return workload;
 }
 
 }  // namespace bench

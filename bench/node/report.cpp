@@ -101,8 +101,15 @@ void print(const ControlMeasurement& m) {
   std::fflush(stdout);
 }
 
+void print(const BatchMeasurement& m) {
+  std::printf("\n%s: %zu questions, %zu hits\n", m.title.c_str(), m.questions, m.hits);
+  std::printf("  service %8.3f ms   library %8.3f ms   ratio %5.2f   %.2f million questions per second\n", m.service_ms,
+              m.library_ms, m.ratio, 1e-3 * static_cast<double>(m.questions) / m.service_ms);
+  std::fflush(stdout);
+}
+
 void writeJson(const std::string& file, const std::string& commit, const std::vector<Measurement>& measurements,
-               const std::optional<ControlMeasurement>& controls) {
+               const std::optional<ControlMeasurement>& controls, const std::vector<BatchMeasurement>& batches) {
   std::ofstream out(file);
   out << "[\n  {\"kind\": \"run\", \"cpu\": " << quoted(processor()) << ", \"compiler\": " << quoted("gcc " __VERSION__)
       << ", \"commit\": " << quoted(commit) << "}";
@@ -134,6 +141,11 @@ void writeJson(const std::string& file, const std::string& commit, const std::ve
         << ", \"empty_callback_percent\": " << number(controls->receiving.control)
         << ", \"idle_percent\": " << number(controls->idle.node)
         << ", \"idle_empty_callback_percent\": " << number(controls->idle.control) << "}";
+  }
+  for (const BatchMeasurement& m : batches) {
+    out << ",\n  {\"kind\": \"node batch\", \"title\": " << quoted(m.title) << ", \"questions\": " << m.questions
+        << ", \"hits\": " << m.hits << ", \"service_ms\": " << number(m.service_ms)
+        << ", \"library_ms\": " << number(m.library_ms) << ", \"ratio\": " << number(m.ratio) << "}";
   }
   out << "\n]\n";
   if (!out.flush()) throw std::runtime_error(file + " cannot be written");

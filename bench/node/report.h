@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "batch_measurement.h"
 #include "control_measurement.h"
 #include "map_measurement.h"
 #include "measurement.h"
@@ -17,12 +18,13 @@ namespace bench {
 void print(const Measurement& measurement);
 void print(const MapMeasurement& measurement);
 void print(const ControlMeasurement& measurement);
+void print(const BatchMeasurement& measurement);
 
 /// Writes all measurements as one JSON array of flat records, one record per part of a measurement. The first record
 /// names the machine and the commit.
 /// @throws std::runtime_error if the file cannot be written
 void writeJson(const std::string& file, const std::string& commit, const std::vector<Measurement>& measurements,
-               const std::optional<ControlMeasurement>& controls);
+               const std::optional<ControlMeasurement>& controls, const std::vector<BatchMeasurement>& batches);
 
 }  // namespace bench
 }  // namespace hgrid

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "hgrid_proximity/geometry/oriented_box.h"
+
 namespace hgrid {
 namespace bench {
 
@@ -52,6 +54,9 @@ Workload freeBodies(std::size_t count, std::size_t moving, double rate);
 /// descriptions are not found in the folder HGRID_TEST_DATA. If that variable is not set, the folder is ../shared/data
 /// beside the project.
 std::vector<Workload> realRobots(double rate);
+/// Returns a Panda that rests among fixed boxes. Its root link is at the origin of the world. The descriptions of the
+/// robots must exist, see realRobots().
+Workload pandaAmong(const std::vector<OrientedBox>& boxes, double rate);
 
 }  // namespace bench
 }  // namespace hgrid

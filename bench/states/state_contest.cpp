@@ -4,106 +4,11 @@
 
 #include <time.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace hgrid {
 namespace bench {
-namespace {
 
-constexpr double kSide = 4.0;   // [m] edge of the cube around the base that has the boxes
-constexpr double kFree = 0.45;  // [m] no box is nearer to the axis of the base
-
-Eigen::Matrix3d randomTurn(Random& random) {
-  Eigen::Quaterniond turn;
-  do {
-    for (int i = 0; i < 4; ++i) turn.coeffs()[i] = random.uniform(-1, 1);
-  } while (turn.squaredNorm() > 1.0 || turn.squaredNorm() < 0.01);
-  return turn.normalized().toRotationMatrix();
-}
-
-/// Returns boxes at random places and orientations. Few boxes are larger.
-std::vector<OrientedBox> randomBoxes(std::size_t count) {
-  Random random(count);
-  const double least = count <= 100 ? 0.03 : 0.02, most = count <= 100 ? 0.10 : 0.03;
-  std::vector<OrientedBox> boxes;
-  while (boxes.size() < count) {
-    OrientedBox box;
-    for (int k = 0; k < 3; ++k) {
-      box.size[k] = random.uniform(least, most);
-      box.world_from_box.translation()[k] = random.uniform(-0.5 * kSide, 0.5 * kSide);
-    }
-    box.world_from_box.linear() = randomTurn(random);
-    if (box.world_from_box.translation().head<2>().norm() - 0.5 * box.size.norm() > kFree) boxes.push_back(box);
-  }
-  return boxes;
-}
-
-}  // namespace
-
-StateContest::StateContest(const StateRobot& tested, std::size_t count)
-    : robot(tested),
-      kinematics(robot.model),
-      matrix(std::make_shared<const LinkMatrix>(robot.model, robot.rules, warnings)),
-      narrow_phase(makeCoreNarrowPhase()) {
-  Scene scene{SceneOptions{}};
-  const std::vector<OrientedBox> boxes = randomBoxes(count);
-  addRobot(scene);
-  addBoxes(scene, boxes);
-  StateCheckerOptions options;
-  options.group = robot.group;
-  checker = std::make_unique<StateChecker>(scene.commit(Time{1}, {}), kinematics, "robot", narrow_phase, options);
-  batch.joints = robot.group;
-  batch.world_from_root = Pose::Identity();
-  batch.others.resize(kinematics.variables().size());
-  fcl = std::make_unique<FclStates>(robot, *matrix, boxes, batch.others);
-}
-
-void StateContest::addRobot(Scene& scene) {
-  for (std::uint32_t i = 0; i < robot.model.links.size(); ++i) {
-    RobotLink& link = robot.model.links[i];
-    if (link.shapes.empty()) continue;
-    Body body;
-    body.name = "robot/" + link.name;
-    body.frame = link.name;
-    body.kind = BodyKind::link;
-    body.robot = "robot";
-    body.link = i;
-    body.rigid_group = link.rigid_group;
-    body.links = matrix;
-    for (BodyShape& shape : link.shapes) shape.solid = narrow_phase->solidOf(shape.shape);
-    body.shapes = link.shapes;
-    scene.place(scene.add(body), Pose::Identity(), Time{1});
-  }
-}
-
-void StateContest::addBoxes(Scene& scene, const std::vector<OrientedBox>& boxes) {
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    Body body;
-    body.name = "obstacle/b" + std::to_string(i);
-    body.frame = "world";
-    body.mobility = Mobility::fixed;
-    const Shape shape = Shape::box(boxes[i].size);
-    body.shapes.push_back({shape, Pose::Identity(), 0.0, {}, Eigen::Vector3d::Ones(), narrow_phase->solidOf(shape)});
-    scene.place(scene.add(body), boxes[i].world_from_box, Time{1});
-  }
-}
-
-std::vector<double> StateContest::randomStates(Random& random, std::size_t count) const {
-  std::vector<double> states;
-  for (std::size_t i = 0; i < count; ++i) {
-    for (const std::string& name : robot.group) {
-      const JointVariable& variable = kinematics.variables()[std::size_t(kinematics.find(name))];
-      states.push_back(std::isfinite(variable.lower) ? random.uniform(variable.lower, variable.upper)
-                                                     : random.uniform(-M_PI, M_PI));
-    }
-  }
-  return states;
-}
-
-double medianOf(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
-  return values[values.size() / 2];
+StateContest::StateContest(const StateRobot& tested, std::size_t boxes) : StateScene(tested, randomBoxes(boxes)) {
+  fcl = std::make_unique<FclStates>(robot, *matrix, randomBoxes(boxes), batch.others);
 }
 
 double threadTime() {
