@@ -180,6 +180,8 @@ function(hgrid_core_options target root)
     set(kernels "${root}/src/broadphase/kernels/kernels_${isa}.cpp")
     target_sources(${target} PRIVATE "${kernels}")
     set_property(SOURCE "${kernels}" PROPERTY COMPILE_OPTIONS -O2 -ftree-vectorize ${HGRID_KERNEL_FLAGS_${isa}})
-    set_property(SOURCE "${kernels}" PROPERTY SKIP_PRECOMPILE_HEADERS ON)  # kernels are built with other flags
+    # Kernels are built with other flags than all other files.
+    set_property(SOURCE "${kernels}" PROPERTY SKIP_PRECOMPILE_HEADERS ON)
+    set_property(SOURCE "${kernels}" PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
   endforeach()
 endfunction()

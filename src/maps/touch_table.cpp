@@ -52,8 +52,8 @@ struct TouchTable::Span {
   Eigen::Vector3d center;  // [finest edges] from the origin of the map
   double near_squared;     // [finest edges^2] square of the distance up to which a cell touches the sphere
   double reach;            // [finest edges] cells farther away along an axis are not looked at; a little larger
-  // Bricks of the array. An axis on which the sphere misses the array has first > last. `middle` is the brick of the array
-  // that is nearest to the center.
+  // Bricks of the array. An axis on which the sphere misses the array has first > last. `middle` is the brick of the
+  // array that is nearest to the center.
   std::array<std::int32_t, 3> first, last, middle;
   std::size_t element = 0;                          // index of the element that is looked at first
 };

@@ -34,7 +34,12 @@ class Reader {
  public:
   Reader(const LoadedRobot& robot, const std::map<std::string, double>& given, const Tick& tick,
          const TransformLookup& transforms)
-      : robot_(robot), model_(robot.read->model), given_(given), tick_(tick), transforms_(transforms), bodies_(robot, *tick.snapshot) {}
+      : robot_(robot),
+        model_(robot.read->model),
+        given_(given),
+        tick_(tick),
+        transforms_(transforms),
+        bodies_(robot, *tick.snapshot) {}
 
   PresentJoints read() {
     for (const RobotLink& link : model_.links) {

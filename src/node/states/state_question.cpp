@@ -50,7 +50,8 @@ void checkJoints(const std::vector<std::string>& joints, const Kinematics& kinem
 /// The joints of other robots that a request gives: for each robot, the values of its variables.
 using OtherJoints = std::map<std::string, std::map<std::string, double>>;
 
-/// Reads the joints of other robots from a request. @throws Refusal out_of_range, unknown_id, not_ready, conflict, dup_id
+/// Reads the joints of other robots from a request.
+/// @throws Refusal out_of_range, unknown_id, not_ready, conflict, dup_id
 OtherJoints otherJoints(const AskedStates& asked, const std::string& robot, const Tick& tick) {
   if (asked.other_joint_names.size() != asked.other_positions.size()) {
     throw Refusal(Code::out_of_range,
@@ -84,7 +85,8 @@ class JoinedQuestion {
       : robot_(robot), joined_{{robot.name, &robot.read->model, world_from_root}}, batch_(batch) {
     for (std::string& joint : batch.joints) joint = robot.name + "/" + joint;
   }
-  /// Adds a robot and the values of its variables. @returns why nobody knows where the robot would be; empty: it is known
+  /// Adds a robot and the values of its variables.
+  /// @returns why nobody knows where the robot would be; empty: it is known
   /// @param placed  name of the checked robot if its root link is given, otherwise empty
   std::string add(const LoadedRobot& other, const std::map<std::string, double>& given, const std::string& placed,
                   const Tick& tick, const TransformLookup& transforms) {
@@ -159,8 +161,9 @@ StateQuestion stateQuestion(const AskedStates& asked, std::vector<double> positi
   }
   JoinedQuestion joined(robot, *batch.world_from_root, batch);
   batch.world_from_root.reset();  // the root link of joined robots is the world
+  const std::string placed = asked.base ? robot.name : "";
   for (const auto& [other, values] : others) {
-    const std::string doubt_of_other = joined.add(robotNamed(other, tick), values, asked.base ? robot.name : "", tick, transforms);
+    const std::string doubt_of_other = joined.add(robotNamed(other, tick), values, placed, tick, transforms);
     if (doubt.empty()) doubt = doubt_of_other;
   }
   StateChecker checker = joined.checker(options, tick, std::move(narrow_phase));

@@ -22,7 +22,7 @@ struct AskedStates {
   const std::vector<std::string>& ignore;             ///< globs over the names of bodies that do not count
   const std::vector<std::string>& other_joint_names;  ///< names of variables of other robots, as robot/variable
   const std::vector<double>& other_positions;         ///< [rad or m] their values
-  std::optional<geometry_msgs::Pose> base;            ///< [m, world frame] pose of the root link; nullopt: where tf says
+  std::optional<geometry_msgs::Pose> base;            ///< [m, world] pose of the root link; nullopt: where tf says
 };
 
 /// A request about states of a robot, prepared for StateChecker.
