@@ -179,6 +179,16 @@ class CheckStates(unittest.TestCase):
 
         wait(is_over, "the end of the lease")
 
+    def test_a_lease_does_not_outlive_the_model_of_its_robot(self):
+        reload_robot = rospy.ServiceProxy("/proximity/reload_robot", srv.ReloadRobot)
+        lease = self.states([[0, 0.5]], keep=5.0).response.lease
+        self.assertTrue(reload_robot(robot="robot").success)
+        wait(lambda: self.proximity.pairs().usable, "the new model")
+        self.assert_refused("CONFLICT", lambda: self.states([[0, 0.5]], lease=lease), "'robot' was loaded again",
+                            "tick %d" % lease.sequence, "revision")
+        self.assert_refused("CONFLICT", lambda: self.edges([[0, 0.5]], [[0, 0.6]], lease=lease), "loaded again")
+        self.assertTrue(self.states([[0, 0.5]]).clear[0])
+
     def test_a_lease_of_another_world_is_refused(self):
         other = Lease(epoch=1, sequence=5)
         self.assert_refused("CONFLICT", lambda: self.states([[0, 0]], lease=other), "epoch 1")

@@ -101,11 +101,13 @@ StateServices::StateServices(ServiceEnvelope& envelope, const Params& params, co
   servers_.push_back(envelope.serve<msg::CheckEdges>("check_edges", [this](auto& call) { answer(call); }));
 }
 
-/// Makes the response from the tick that the request asks for.
+/// Makes the response from the tick that the request asks for. @returns the newest tick
 template <class Service>
-void StateServices::chooseTick(ServiceCall<Service>& call) {
+std::shared_ptr<const Tick> StateServices::chooseTick(ServiceCall<Service>& call) {
   call.tick.snapshot();  // throws while there is no world
-  call.answerFrom(leases_.find(call.request.lease, call.tick.get()));
+  std::shared_ptr<const Tick> newest = call.tick.get();
+  call.answerFrom(leases_.find(call.request.lease, newest));
+  return newest;
 }
 
 void StateServices::checkCount(const char* what, std::size_t values, std::size_t joints) const {
@@ -116,10 +118,10 @@ void StateServices::answer(ServiceCall<msg::CheckStates>& call) {
   const auto& request = call.request;
   auto& response = call.response;
   const auto end = batchDeadlineOf(request.max_time);
-  chooseTick(call);
+  const std::shared_ptr<const Tick> newest = chooseTick(call);
   checkCount("states", request.positions.size(), request.joint_names.size());
   const StateQuestion question =
-      stateQuestion(askedOf(request), request.positions, *call.tick.get(), transforms_, narrow_phase_);
+      stateQuestion(askedOf(request), request.positions, *call.tick.get(), *newest, transforms_, narrow_phase_);
   if (request.max_clearance > kFarthest) {
     throw Refusal(Code::out_of_range, "max_clearance is " + text(request.max_clearance) + " m; it must be at most " +
                                           text(kFarthest) + " m");
@@ -154,7 +156,7 @@ void StateServices::answer(ServiceCall<msg::CheckEdges>& call) {
   const auto& request = call.request;
   auto& response = call.response;
   const auto end = batchDeadlineOf(request.max_time);
-  chooseTick(call);
+  const std::shared_ptr<const Tick> newest = chooseTick(call);
   const std::size_t width = request.joint_names.size();
   if (request.start.size() != request.end.size() || (width > 0 && request.start.size() % width != 0)) {
     throw Refusal(Code::out_of_range, "start has " + std::to_string(request.start.size()) + " values and end has " +
@@ -167,7 +169,7 @@ void StateServices::answer(ServiceCall<msg::CheckEdges>& call) {
   positions.insert(positions.end(), request.end.begin(), request.end.end());
   const auto count = static_cast<std::uint32_t>(width == 0 ? 0 : request.start.size() / width);
   const StateQuestion question =
-      stateQuestion(askedOf(request), std::move(positions), *call.tick.get(), transforms_, narrow_phase_);
+      stateQuestion(askedOf(request), std::move(positions), *call.tick.get(), *newest, transforms_, narrow_phase_);
   std::vector<StateEdge> edges;
   for (std::uint32_t i = 0; i < count; ++i) edges.push_back({i, count + i});
   EdgeRequest asked;

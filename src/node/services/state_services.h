@@ -27,7 +27,7 @@ class StateServices {
   void answer(ServiceCall<msg::CheckStates>& call);
   void answer(ServiceCall<msg::CheckEdges>& call);
   template <class Service>
-  void chooseTick(ServiceCall<Service>& call);
+  std::shared_ptr<const Tick> chooseTick(ServiceCall<Service>& call);
   void checkCount(const char* what, std::size_t values, std::size_t joints) const;
 
   const Params& params_;

@@ -47,6 +47,16 @@ void checkJoints(const std::vector<std::string>& joints, const Kinematics& kinem
                                   "' has only " + std::to_string(most) + " joint values; each must occur once");
 }
 
+/// Checks that a robot was not loaded again since a tick. @throws Refusal conflict
+void checkModel(const LoadedRobot& robot, const Tick& tick, const Tick& newest) {
+  const auto now = newest.robots->find(robot.name);
+  if (now != newest.robots->end() && now->second.inWorld() && now->second.model->read == robot.read) return;
+  const auto revisionOf = [](const Tick& of) { return std::to_string(of.snapshot->structure().revision); };
+  throw Refusal(Code::conflict, "robot '" + robot.name + "' was loaded again or removed since tick " +
+                                    std::to_string(tick.snapshot->sequence()) + " of the lease (bodies of revision " +
+                                    revisionOf(tick) + ", now " + revisionOf(newest) + "); ask for a new lease");
+}
+
 /// The joints of other robots that a request gives: for each robot, the values of its variables.
 using OtherJoints = std::map<std::string, std::map<std::string, double>>;
 
@@ -124,7 +134,8 @@ void checkCounting(const StateChecker& checker, const AskedStates& asked) {
 }  // namespace
 
 StateQuestion stateQuestion(const AskedStates& asked, std::vector<double> positions, const Tick& tick,
-                            const TransformLookup& transforms, std::shared_ptr<const NarrowPhase> narrow_phase) {
+                            const Tick& newest, const TransformLookup& transforms,
+                            std::shared_ptr<const NarrowPhase> narrow_phase) {
   checkPatterns(asked.ignore);
   if (asked.joint_names.empty() && !positions.empty()) {
     throw Refusal(Code::out_of_range, "the request has " + std::to_string(positions.size()) +
@@ -132,6 +143,7 @@ StateQuestion stateQuestion(const AskedStates& asked, std::vector<double> positi
   }
   const LoadedRobot& robot =
       asked.robot.empty() ? robotWith(asked.joint_names, asked.group, tick) : robotNamed(asked.robot, tick);
+  checkModel(robot, tick, newest);
   const Kinematics& kinematics = *robot.read->joints->kinematics;
   StateBatch batch;
   std::map<std::string, double> given;  // presentJoints() needs to know which values are given, but not the values
@@ -162,8 +174,10 @@ StateQuestion stateQuestion(const AskedStates& asked, std::vector<double> positi
   JoinedQuestion joined(robot, *batch.world_from_root, batch);
   batch.world_from_root.reset();  // the root link of joined robots is the world
   const std::string placed = asked.base ? robot.name : "";
-  for (const auto& [other, values] : others) {
-    const std::string doubt_of_other = joined.add(robotNamed(other, tick), values, placed, tick, transforms);
+  for (const auto& [name, values] : others) {
+    const LoadedRobot& other = robotNamed(name, tick);
+    checkModel(other, tick, newest);
+    const std::string doubt_of_other = joined.add(other, values, placed, tick, transforms);
     if (doubt.empty()) doubt = doubt_of_other;
   }
   StateChecker checker = joined.checker(options, tick, std::move(narrow_phase));

@@ -36,10 +36,14 @@ struct StateQuestion {
 
 /// Prepares a request.
 /// @param positions  rows of values of joint_names
+/// @param tick       the tick that the request asks about
+/// @param newest     the newest tick
 /// @throws Refusal what robotNamed() or robotWith(), presentJoints(), presentRoot(), fromPose() and StateChecker throw;
 /// out_of_range if there are positions but no names of joints, or not one value for each of other_joint_names;
-/// unknown_id, conflict or dup_id for an entry of other_joint_names
+/// unknown_id, conflict or dup_id for an entry of other_joint_names; conflict if a robot of the request was loaded
+/// again since the tick
 StateQuestion stateQuestion(const AskedStates& asked, std::vector<double> positions, const Tick& tick,
-                            const TransformLookup& transforms, std::shared_ptr<const NarrowPhase> narrow_phase);
+                            const Tick& newest, const TransformLookup& transforms,
+                            std::shared_ptr<const NarrowPhase> narrow_phase);
 
 }  // namespace hgrid
