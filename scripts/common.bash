@@ -119,7 +119,8 @@ build() {
   if [[ ! -f $out/Makefile || $(cat "$out/.options" 2>/dev/null) != "${options[*]}" ]]; then
     say "configuring"
     # The project uses its messages only in C++ and Python.
-    quietly env ROS_LANG_DISABLE=geneus:genlisp:gennodejs cmake -S "$root" -B "$out" "${options[@]}" || fail "cmake failed"
+    quietly env ROS_LANG_DISABLE=geneus:genlisp:gennodejs cmake -S "$root" -B "$out" "${options[@]}" ||
+      fail "cmake failed"
     printf '%s\n' "${options[*]}" >"$out/.options"
   fi
   say "building in Release mode (takes minutes the first time, seconds later)"

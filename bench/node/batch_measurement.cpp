@@ -106,22 +106,19 @@ BatchMeasurement measureStates(double duration) {
 /// Returns a snapshot of the obstacles of a workload. They must be fixed boxes.
 /// @param around  is extended by their centers
 std::shared_ptr<const Snapshot> snapshotOf(const Workload& workload, Eigen::AlignedBox3d& around) {
-  Scene scene{SceneOptions{}};
+  std::vector<OrientedBox> boxes;
   XmlRpc::XmlRpcValue obstacles = workload.params["obstacles"];
   for (int i = 0; i < obstacles.size(); ++i) {
-    Eigen::Vector3d size, at;
+    OrientedBox box;
     for (int axis = 0; axis < 3; ++axis) {
-      size[axis] = static_cast<double>(obstacles[i]["shapes"][0]["size"][axis]);
-      at[axis] = static_cast<double>(obstacles[i]["pose"]["xyz"][axis]);
+      box.size[axis] = static_cast<double>(obstacles[i]["shapes"][0]["size"][axis]);
+      box.world_from_box.translation()[axis] = static_cast<double>(obstacles[i]["pose"]["xyz"][axis]);
     }
-    around.extend(at);
-    Body body;
-    body.name = "obstacle/b" + std::to_string(i);
-    body.frame = "world";
-    body.mobility = Mobility::fixed;
-    body.shapes.push_back({Shape::box(size), Pose::Identity(), 0.0, {}, Eigen::Vector3d::Ones(), nullptr});
-    scene.place(scene.add(body), Pose(Eigen::Translation3d(at)), Time{1});
+    around.extend(box.world_from_box.translation());
+    boxes.push_back(box);
   }
+  Scene scene{SceneOptions{}};
+  addBoxes(scene, boxes, *makeCoreNarrowPhase());
   return scene.commit(Time{1}, {});
 }
 

@@ -45,7 +45,7 @@ StateScene::StateScene(const StateRobot& tested, const std::vector<OrientedBox>&
       narrow_phase(makeCoreNarrowPhase()) {
   Scene scene{SceneOptions{}};
   addRobot(scene);
-  addBoxes(scene, boxes);
+  addBoxes(scene, boxes, *narrow_phase);
   StateCheckerOptions options;
   options.group = robot.group;
   checker = std::make_unique<StateChecker>(scene.commit(Time{1}, {}), kinematics, "robot", narrow_phase, options);
@@ -72,14 +72,14 @@ void StateScene::addRobot(Scene& scene) {
   }
 }
 
-void StateScene::addBoxes(Scene& scene, const std::vector<OrientedBox>& boxes) {
+void addBoxes(Scene& scene, const std::vector<OrientedBox>& boxes, NarrowPhase& narrow_phase) {
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     Body body;
     body.name = "obstacle/b" + std::to_string(i);
     body.frame = "world";
     body.mobility = Mobility::fixed;
     const Shape shape = Shape::box(boxes[i].size);
-    body.shapes.push_back({shape, Pose::Identity(), 0.0, {}, Eigen::Vector3d::Ones(), narrow_phase->solidOf(shape)});
+    body.shapes.push_back({shape, Pose::Identity(), 0.0, {}, Eigen::Vector3d::Ones(), narrow_phase.solidOf(shape)});
     scene.place(scene.add(body), boxes[i].world_from_box, Time{1});
   }
 }

@@ -35,8 +35,10 @@ struct StateScene {
 
  private:
   void addRobot(Scene& scene);
-  void addBoxes(Scene& scene, const std::vector<OrientedBox>& boxes);
 };
+
+/// Adds boxes that are fixed in the world as obstacles.
+void addBoxes(Scene& scene, const std::vector<OrientedBox>& boxes, NarrowPhase& narrow_phase);
 
 /// Returns boxes at random poses. The same count gives the same boxes. Their sides are 0.03 to 0.10 m for up to 100
 /// boxes, and 0.02 to 0.03 m for more.

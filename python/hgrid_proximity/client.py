@@ -410,7 +410,8 @@ class Proximity:
         max_time: float = 0.0,
     ):
         request.robot, request.group, request.joint_names = robot, group, joint_names
-        request.other_joint_names, request.other_positions = list(others or {}), list((others or {}).values())
+        others = others or {}
+        request.other_joint_names, request.other_positions = list(others), list(others.values())
         request.ignore, request.max_time, request.use_base = globs(ignore), max_time, base is not None
         if base is not None:
             request.base = base

@@ -14,6 +14,7 @@ namespace {
 
 // Elements from this value on are of empty bricks; the rest is the distance in bricks.
 constexpr std::uint32_t kEmpty = std::uint32_t{1} << 31;
+constexpr std::uint32_t kFull = 0;  // element of a brick whose cells are all occupied
 constexpr std::size_t kMostElements = std::size_t{1} << 24;  // 64 MiB; a larger map has no table
 constexpr int kMostBricks = 6;      // along an axis, for a sphere that the table answers
 constexpr int kFarthest = 5;        // distances in bricks are counted up to this one; it also stands for larger ones
@@ -55,7 +56,7 @@ struct TouchTable::Span {
   // Bricks of the array. An axis on which the sphere misses the array has first > last. `middle` is the brick of the
   // array that is nearest to the center.
   std::array<std::int32_t, 3> first, last, middle;
-  std::size_t element = 0;                          // index of the element that is looked at first
+  std::size_t element;  // index of the element of `middle`
 };
 
 TouchTable::TouchTable(const StaticGrid& grid) : grid_(grid) {
@@ -71,6 +72,7 @@ TouchTable::TouchTable(const StaticGrid& grid) : grid_(grid) {
   }
   if (size > kMostElements) return;
   elements_.assign(size, kEmpty);
+  cells_.push_back(~std::uint64_t{0});
   fill(grid.bricks_->start);
   writeDistances();
 }
@@ -96,10 +98,6 @@ void TouchTable::fill(const Brick& brick) {
       continue;
     }
     // The cell is a cube of whole bricks, all of whose cells are occupied.
-    if (full_ == kEmpty) {
-      full_ = static_cast<std::uint32_t>(cells_.size());
-      cells_.push_back(~std::uint64_t{0});
-    }
     const std::int32_t edge = std::int32_t{1} << 2 * brick.level;
     std::array<std::int32_t, 3> low;
     for (int axis = 0; axis < 3; ++axis) {
@@ -107,7 +105,7 @@ void TouchTable::fill(const Brick& brick) {
           brick.corner[static_cast<std::size_t>(axis)] + cellAlong(cell, axis) * edge;
     }
     for (std::int32_t z = low[2]; z < low[2] + edge; z += 4) {
-      for (std::int32_t y = low[1]; y < low[1] + edge; y += 4) std::fill_n(&elementAt({low[0], y, z}), edge / 4, full_);
+      for (std::int32_t y = low[1]; y < low[1] + edge; y += 4) std::fill_n(&elementAt({low[0], y, z}), edge / 4, kFull);
     }
   }
 }
@@ -163,7 +161,7 @@ bool TouchTable::touches(const Span& span) const {
   }
   const std::uint32_t middle = elements_[span.element];
   if (middle >= kEmpty && static_cast<std::uint32_t>(reach) < middle - kEmpty) return false;
-  // For each axis: the squared distances of the layers of cells, and for each brick the layers that are near enough.
+  // For each axis: the squared distance of each layer of cells, and for each brick the cells in layers that are near.
   double squared[3][4 * kMostBricks];
   std::uint64_t near_cells[3][kMostBricks];
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -208,16 +206,12 @@ bool TouchTable::touches(const Sphere& sphere) const {
 
 void TouchTable::touches(const std::vector<Sphere>& spheres, std::vector<std::uint8_t>& touched) const {
   touched.resize(spheres.size());
-  if (!hasTable()) {
-    for (std::size_t i = 0; i < spheres.size(); ++i) touched[i] = grid_.touches(spheres[i]) ? 1 : 0;
-    return;
-  }
   Span spans[kAhead];
   bool is_small[kAhead];
   for (std::size_t begin = 0; begin < spheres.size(); begin += kAhead) {
     const std::size_t count = std::min(kAhead, spheres.size() - begin);
     for (std::size_t i = 0; i < count; ++i) {
-      is_small[i] = spanOf(spheres[begin + i], spans[i]);
+      is_small[i] = hasTable() && spanOf(spheres[begin + i], spans[i]);
       if (is_small[i]) __builtin_prefetch(&elements_[spans[i].element]);
     }
     for (std::size_t i = 0; i < count; ++i) {

@@ -90,6 +90,13 @@ inline std::vector<Map> maps() {
   return maps;
 }
 
+/// Returns the name of a map as a part of the name of a test.
+inline std::string testName(const Map& map) {
+  std::string name = map.name;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
 /// Returns a random position in the map, on the border of a voxel, or far away.
 inline Eigen::Vector3d somewhere(const Map& map, Random& random) {
   if (map.voxels.empty() || random.chance(0.05)) {
@@ -121,7 +128,8 @@ inline Real distanceOf(const Map& map, const Voxel& voxel, const Eigen::AlignedB
   return std::sqrt(sum);
 }
 
-/// Returns a bound [m] of the rounding errors in a distance from the box. @param around  [m] radius or limit of the query
+/// Returns a bound [m] of the rounding errors in a distance from the box.
+/// @param around  [m] radius or limit of the query
 inline double slack(const Eigen::AlignedBox3d& box, double around) {
   return 1e-9 * (box.min().cwiseAbs().maxCoeff() + box.max().cwiseAbs().maxCoeff() + around + 1.0);
 }

@@ -40,11 +40,8 @@ class StaticGridOracle : public ::testing::TestWithParam<std::size_t> {
   Random random_{GetParam() + 1};
 };
 
-INSTANTIATE_TEST_SUITE_P(Maps, StaticGridOracle, ::testing::Range<std::size_t>(0, maps().size()), [](const auto& info) {
-  std::string name = maps()[info.param].name;
-  std::replace(name.begin(), name.end(), ' ', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Maps, StaticGridOracle, ::testing::Range<std::size_t>(0, maps().size()),
+                         [](const auto& info) { return testName(maps()[info.param]); });
 
 TEST_P(StaticGridOracle, HasTheVoxelsThatItWasMadeOf) {
   EXPECT_EQ(grid_.size(), map_.voxels.size());

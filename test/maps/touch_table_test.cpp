@@ -21,11 +21,8 @@ class TouchTableOracle : public ::testing::TestWithParam<std::size_t> {
   Random random_{GetParam() + 7};
 };
 
-INSTANTIATE_TEST_SUITE_P(Maps, TouchTableOracle, ::testing::Range<std::size_t>(0, maps().size()), [](const auto& info) {
-  std::string name = maps()[info.param].name;
-  std::replace(name.begin(), name.end(), ' ', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Maps, TouchTableOracle, ::testing::Range<std::size_t>(0, maps().size()),
+                         [](const auto& info) { return testName(maps()[info.param]); });
 
 TEST_P(TouchTableOracle, SaysWhichSpheresTouch) {
   const int count = std::max(1000, countFromEnvironment("HGRID_TEST_WORLDS", 10000) / 2);

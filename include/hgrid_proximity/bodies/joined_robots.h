@@ -18,9 +18,9 @@ struct JoinedRobot {
 
 /// Returns several robots as one model, so that StateChecker can check all of them. Names of robots must differ.
 ///
-/// The root link of the result is the world; its name is empty. Fixed joints connect the root links of the robots to it.
-/// The link "hand" and the joint "elbow" of the robot "left" become "left/hand" and "left/elbow". The variables of the
-/// robots follow each other in the order of `robots`. findRigidGroups() was called for the result.
+/// The root link of the result is the world; its name is empty. Fixed joints connect the root links of the robots to
+/// it. The link "hand" and the joint "elbow" of the robot "left" become "left/hand" and "left/elbow". The variables of
+/// the first robot come first, then those of the next one. findRigidGroups() was called for the result.
 RobotModel joinRobots(const std::vector<JoinedRobot>& robots);
 
 }  // namespace hgrid

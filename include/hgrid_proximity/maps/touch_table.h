@@ -50,9 +50,7 @@ class TouchTable {
   std::array<std::int32_t, 3> corner_{};  // [finest edges] minimum corner of the array, from the origin of the map
   std::array<std::int32_t, 3> counts_{};  // number of bricks along each axis
   std::vector<std::uint32_t> elements_;   // for each brick; below 2^31: index into cells_; otherwise 2^31 + distance
-  // Index into cells_ of the bricks whose cells are all occupied; 2^31: there is none yet.
-  std::uint32_t full_ = std::uint32_t{1} << 31;
-  std::vector<std::uint64_t> cells_;      // the occupied cells of a brick, see maps/brick.h
+  std::vector<std::uint64_t> cells_;      // sets of occupied cells, see maps/brick.h; the first one has all cells
 };
 
 }  // namespace hgrid

@@ -18,8 +18,8 @@
 
 namespace hgrid {
 
-/// States of a robot, or of several robots that joinRobots() has joined, as a planner asks about them. Each state is one
-/// value for each variable of the joints.
+/// States of a robot, or of several robots that joinRobots() has joined, as a planner asks about them. Each state is
+/// one value for each variable of the joints.
 struct StateBatch {
   /// Names of the variables that `positions` has, see JointVariable. Empty: all variables, in the order of
   /// Kinematics::variables().
@@ -99,9 +99,9 @@ struct StateCheckerOptions {
   /// and against everything else. Bodies of the robot that they do not move are part of the world: their contacts with
   /// other bodies are not looked for. Empty: all variables.
   std::vector<std::string> group = {};
-  /// Names of the robots that a planner moves, if `kinematics` are those of joinRobots(). Only their bodies count, as in
-  /// `group`. The other robots are where their joints put them; their contacts with other bodies are not looked for.
-  /// Empty: all robots.
+  /// Names of the robots that a planner moves, if `kinematics` are those of joinRobots(). Only their bodies count, as
+  /// for `group`. The other robots are where their joints put them; of their contacts, only those with bodies that
+  /// count are looked for. Empty: all robots.
   std::vector<std::string> robots = {};
   /// Name of the world frame. Obstacles that follow it are not attached to the robot, even if one of its links has this
   /// name. Empty: no link has the name of the world frame.
@@ -114,8 +114,8 @@ struct StateCheckerOptions {
 /// All bodies of one snapshot count, with their padding: links of the robot against each other, and against all other
 /// bodies, maps, clouds and planes. The pair filter of the snapshot applies. The links of the robot and the obstacles
 /// that are attached to them are where the joints put them. Everything else stays where the snapshot has it, also other
-/// robots that are not joined to this one. An obstacle is attached if it can move and follows the frame of a link that can move, but not the world
-/// frame (StateCheckerOptions::world_frame).
+/// robots that are not joined to this one. An obstacle is attached if it can move and follows the frame of a link that
+/// can move, but not the world frame (StateCheckerOptions::world_frame).
 ///
 /// The verdict of a state without contact is `unknown` instead of `clear` if something may be in contact unseen:
 /// - A source of the snapshot lacks something (Snapshot::gaps()) that may be where the robot would be.

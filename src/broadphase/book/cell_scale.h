@@ -166,8 +166,10 @@ enum class CellRule {
   density,  ///< the rule for ray tracing: about as many cells as boxes, n^(1/3) per axis if the boxes fill space
 };
 
-/// Length [m] of a box's longest side.
-inline double longestSideInDouble(const Aabb& box) { return (box.max.cast<double>() - box.min.cast<double>()).maxCoeff(); }
+/// Length [m] of a box's longest side, computed in double.
+inline double longestSideInDouble(const Aabb& box) {
+  return (box.max.cast<double>() - box.min.cast<double>()).maxCoeff();
+}
 
 /// Returns the edge of a cell [m] for these boxes, 1 if there are none. If 19 of 20 boxes are points, both rules use
 /// the density.

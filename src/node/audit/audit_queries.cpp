@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
+#include "geometry/infinity.h"
 #include "hgrid_proximity/refusal.h"
 
 namespace hgrid {
 namespace {
 
 using Kind = RecordedQuery::Kind;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The least and the largest value [m] that the distance between a body and a query may have.
 struct Range {

@@ -21,7 +21,7 @@ std::map<std::string, std::uint32_t> groupsOfFrames(const LoadedRobot& robot) {
 }
 
 GroupBodies::GroupBodies(const LoadedRobot& robot, const Snapshot& snapshot)
-    : robot_(robot), below_(robot.groups.size()), has_bodies_(robot.groups.size()) {
+    : robot_(robot), snapshot_(snapshot), below_(robot.groups.size()), has_bodies_(robot.groups.size()) {
   const std::map<std::string, std::uint32_t> group_of_frame = groupsOfFrames(robot);
   for (const Body& body : snapshot.structure().bodies) {
     if (body.kind != BodyKind::obstacle || body.mobility == Mobility::fixed) continue;
@@ -37,16 +37,16 @@ GroupBodies::GroupBodies(const LoadedRobot& robot, const Snapshot& snapshot)
   }
 }
 
-std::string GroupBodies::doubtAbout(std::uint32_t group, const Snapshot& snapshot) const {
+std::string GroupBodies::doubtAbout(std::uint32_t group) const {
   std::vector<std::uint32_t> open{group};
   while (!open.empty()) {
     const std::uint32_t next = open.back();
     open.pop_back();
     for (const auto& member : robot_.groups[next].members) {
-      const std::uint32_t body = snapshot.structure().find(robot_.bodies[member.first].name);
+      const std::uint32_t body = snapshot_.structure().find(robot_.bodies[member.first].name);
       if (body == Structure::kNone) return robot_.bodies[member.first].name + " is not in the world yet";
-      if (snapshot.poses()[body].state < Freshness::stale) continue;
-      return doubtOf(snapshot.structure().bodies[body], snapshot.poses()[body]);
+      if (snapshot_.poses()[body].state < Freshness::stale) continue;
+      return doubtOf(snapshot_.structure().bodies[body], snapshot_.poses()[body]);
     }
     if (robot_.groups[next].members.empty()) open.insert(open.end(), below_[next].begin(), below_[next].end());
   }

@@ -74,7 +74,7 @@ class Reader {
         transforms_.atOrNewest(robot_.groups[parent.rigid_group].frame, frame, tick_.snapshot->stamp(),
                                tick_.settings->params.stale_after,
                                "the frame '" + printable(frame) + "' behind joint '" + printable(link.joint) + "'");
-    if (result_.doubt.empty()) result_.doubt = bodies_.doubtAbout(link.rigid_group, *tick_.snapshot);
+    if (result_.doubt.empty()) result_.doubt = bodies_.doubtAbout(link.rigid_group);
     if (given == 0) seen_.emplace_back(&link, pose);
     return pose;
   }
@@ -125,7 +125,7 @@ PresentPose presentPose(const LoadedRobot& robot, const std::string& frame, cons
   PresentPose pose{
       transforms.atOrNewest(tick.world_frame, frame, tick.made.ros, tick.settings->params.stale_after, what), {}};
   const bool is_static = transforms.isKnown(tick.world_frame, frame, Time::max() / 2);  // static poses have no time
-  if (!is_static) pose.doubt = GroupBodies(robot, *tick.snapshot).doubtAbout(0, *tick.snapshot);
+  if (!is_static) pose.doubt = GroupBodies(robot, *tick.snapshot).doubtAbout(0);
   return pose;
 }
 

@@ -96,8 +96,8 @@ class JoinedQuestion {
     for (std::string& joint : batch.joints) joint = robot.name + "/" + joint;
   }
   /// Adds a robot and the values of its variables.
-  /// @returns why nobody knows where the robot would be; empty: it is known
   /// @param placed  name of the checked robot if its root link is given, otherwise empty
+  /// @returns why nobody knows where the robot would be; empty: it is known
   std::string add(const LoadedRobot& other, const std::map<std::string, double>& given, const std::string& placed,
                   const Tick& tick, const TransformLookup& transforms) {
     const PresentJoints present = presentJoints(other, given, tick, transforms);

@@ -89,7 +89,7 @@ void RobotShapes::addLinks(const Snapshot& snapshot, const Kinematics& kinematic
   for (std::uint32_t link = 0; link < links.size(); ++link) {
     const std::string name = robot.empty() ? links[link] : robot + "/" + links[link];
     link_of_body[name] = link;
-    ++links_of_robot[name.substr(0, name.find('/'))];
+    ++links_of_robot[robot.empty() ? name.substr(0, name.find('/')) : robot];
   }
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Compares the answers for two joined robots with the answers for one robot. For these, the other robot is a part of the
-// world, and an oracle has placed its links.
+// Compares the answers for two joined robots with the answers for one robot. For these, the other robot is a part of
+// the world, and an oracle has placed its links.
 #include "hgrid_proximity/bodies/joined_robots.h"
 
 #include <gtest/gtest.h>
@@ -89,8 +89,8 @@ TEST(JoinedRobots, AreCheckedLikeOneRobotInAWorldWithTheOther) {
   StateRequest near;
   near.clearance = kNear;
   int hits = 0, close = 0, far = 0, only_right_hits = 0;
-  const int count = std::max(200, countFromEnvironment("HGRID_TEST_CHECKED_STATES", 10000) / 5);
-  for (int world = 0; world < std::max(5, count / 100); ++world) {
+  const int worlds = std::max(5, countFromEnvironment("HGRID_TEST_CHECKED_STATES", 10000) / 500);
+  for (int world = 0; world < worlds; ++world) {
     TwoRobots two(random);
     const Kinematics joined = two.joined(), of_left(two.robots[0].model), of_right(two.robots[1].model);
     StateCheckerOptions left_counts;
