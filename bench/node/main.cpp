@@ -40,12 +40,12 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "node_testbench");
   std::string json, commit = "unknown";
   double duration = 10.0;  // [s] measured time per world
-  std::string only;        // "" (everything), "worlds", "controls", "maps" or "batches"
+  std::string only;        // "" (everything), "worlds", "controls", "maps", "batches" or "guard"
   std::string title;       // part of the titles of the worlds that are measured
   for (int i = 1; i < argc; ++i) {
     const std::string option = argv[i];
     if (option == "--quick") duration = 4.0;
-    for (const char* part : {"worlds", "controls", "maps", "batches"}) {
+    for (const char* part : {"worlds", "controls", "maps", "batches", "guard"}) {
       if (option == std::string("--") + part) only = part;
     }
     if (option == "--world" && i + 1 < argc) only = "worlds", title = argv[++i];
@@ -79,7 +79,12 @@ int main(int argc, char** argv) {
       batches = measureBatches(duration);
       for (const BatchMeasurement& batch : batches) print(batch);
     }
-    if (!json.empty()) writeJson(json, commit, measurements, controls, batches);
+    std::optional<GuardMeasurement> guard;
+    if (only.empty() || only == "guard") {
+      guard = measureGuard(duration);
+      if (guard) print(*guard);
+    }
+    if (!json.empty()) writeJson(json, commit, measurements, controls, batches, guard);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "node_testbench: %s\n", error.what());
     return 1;

@@ -52,8 +52,9 @@ struct Moving {
 };
 
 /// Adds a real robot to the parameters and descriptions of a workload.
-Moving addRobot(Workload& workload, const std::string& name) {
-  const test::RealRobot robot = test::realRobot(name);
+/// @param model  name of its files
+Moving addRobot(Workload& workload, const std::string& name, const std::string& model) {
+  const test::RealRobot robot = test::realRobot(model);
   MeshLoader loader(test::meshPolicy());
   Moving moving{test::readWith(loader, robot.urdf), name, {}};
   workload.descriptions[name + "_description"] = robot.urdf;
@@ -69,6 +70,14 @@ Moving addRobot(Workload& workload, const std::string& name) {
     workload.bodies += moving.model.links[link].has_collision;
   }
   return moving;
+}
+
+/// Places a robot, with all joints at zero.
+void rest(Moving& robot, const Pose& world_from_root) {
+  for (std::size_t link = 0; link < robot.model.links.size(); ++link) {
+    setPose(link == 0 ? world_from_root : robot.model.links[link].parent_from_joint,
+            robot.message.transforms[link].transform);
+  }
 }
 
 /// Returns a workload without robots. Also adds the folder of the robots to ROS_PACKAGE_PATH.
@@ -90,7 +99,7 @@ std::vector<Workload> realRobots(double rate) {
   Workload workload = emptyWorld("UR5, Panda and PR2, distances measured", rate);
   workload.distances = true;
   auto robots = std::make_shared<std::vector<Moving>>();
-  for (const std::string name : {"ur5", "panda", "pr2"}) robots->push_back(addRobot(workload, name));
+  for (const std::string name : {"ur5", "panda", "pr2"}) robots->push_back(addRobot(workload, name, name));
   workload.move = [robots](double t) {
     std::vector<tf2_msgs::TFMessage> messages;
     for (std::size_t number = 0; number < robots->size(); ++number) {
@@ -108,13 +117,26 @@ std::vector<Workload> realRobots(double rate) {
   return {workload};
 }
 
+Workload pandas(int count, double rate) {
+  Workload workload = emptyWorld(std::to_string(count) + " Pandas", rate);
+  auto robots = std::make_shared<std::vector<Moving>>();
+  const int side = static_cast<int>(std::ceil(std::sqrt(count)));
+  for (int i = 0; i < count; ++i) {
+    robots->push_back(addRobot(workload, "panda" + std::to_string(i), "panda"));
+    rest(robots->back(), Pose(Eigen::Translation3d(kApart * (i % side), kApart * (i / side), 0.0)));
+  }
+  workload.move = [robots](double) {
+    std::vector<tf2_msgs::TFMessage> messages;
+    for (const Moving& robot : *robots) messages.push_back(robot.message);
+    return messages;
+  };
+  return workload;
+}
+
 Workload pandaAmong(const std::vector<OrientedBox>& boxes, double rate) {
   Workload workload = emptyWorld("Panda among " + std::to_string(boxes.size()) + " boxes", rate);
-  auto robot = std::make_shared<Moving>(addRobot(workload, "panda"));
-  for (std::size_t link = 0; link < robot->model.links.size(); ++link) {
-    setPose(robot->model.links[link].parent_from_joint, robot->message.transforms[link].transform);
-  }
-  setPose(Pose::Identity(), robot->message.transforms[0].transform);
+  auto robot = std::make_shared<Moving>(addRobot(workload, "panda", "panda"));
+  rest(*robot, Pose::Identity());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     XmlRpc::XmlRpcValue& obstacle = workload.params["obstacles"][static_cast<int>(i)];
     const Eigen::Quaterniond turn(boxes[i].world_from_box.linear());

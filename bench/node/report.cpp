@@ -108,8 +108,15 @@ void print(const BatchMeasurement& m) {
   std::fflush(stdout);
 }
 
+void print(const GuardMeasurement& m) {
+  std::printf("\n~conflicts, 4 Pandas with paths of 10 s, an obstacle moves %zu times\n", m.moves);
+  std::printf("  from the tick to ~conflicts: paths free %8.3f ms   in conflict %8.3f ms\n", m.free_ms, m.conflict_ms);
+  std::fflush(stdout);
+}
+
 void writeJson(const std::string& file, const std::string& commit, const std::vector<Measurement>& measurements,
-               const std::optional<ControlMeasurement>& controls, const std::vector<BatchMeasurement>& batches) {
+               const std::optional<ControlMeasurement>& controls, const std::vector<BatchMeasurement>& batches,
+               const std::optional<GuardMeasurement>& guard) {
   std::ofstream out(file);
   out << "[\n  {\"kind\": \"run\", \"cpu\": " << quoted(processor()) << ", \"compiler\": " << quoted("gcc " __VERSION__)
       << ", \"commit\": " << quoted(commit) << "}";
@@ -146,6 +153,10 @@ void writeJson(const std::string& file, const std::string& commit, const std::ve
     out << ",\n  {\"kind\": \"node batch\", \"title\": " << quoted(m.title) << ", \"questions\": " << m.questions
         << ", \"hits\": " << m.hits << ", \"service_ms\": " << number(m.service_ms)
         << ", \"library_ms\": " << number(m.library_ms) << ", \"ratio\": " << number(m.ratio) << "}";
+  }
+  if (guard) {
+    out << ",\n  {\"kind\": \"node guard\", \"moves\": " << guard->moves << ", \"free_ms\": " << number(guard->free_ms)
+        << ", \"conflict_ms\": " << number(guard->conflict_ms) << "}";
   }
   out << "\n]\n";
   if (!out.flush()) throw std::runtime_error(file + " cannot be written");

@@ -8,6 +8,7 @@
 
 #include "batch_measurement.h"
 #include "control_measurement.h"
+#include "guard_measurement.h"
 #include "map_measurement.h"
 #include "measurement.h"
 
@@ -19,12 +20,14 @@ void print(const Measurement& measurement);
 void print(const MapMeasurement& measurement);
 void print(const ControlMeasurement& measurement);
 void print(const BatchMeasurement& measurement);
+void print(const GuardMeasurement& measurement);
 
 /// Writes all measurements as one JSON array of flat records, one record per part of a measurement. The first record
 /// names the machine and the commit.
 /// @throws std::runtime_error if the file cannot be written
 void writeJson(const std::string& file, const std::string& commit, const std::vector<Measurement>& measurements,
-               const std::optional<ControlMeasurement>& controls, const std::vector<BatchMeasurement>& batches);
+               const std::optional<ControlMeasurement>& controls, const std::vector<BatchMeasurement>& batches,
+               const std::optional<GuardMeasurement>& guard);
 
 }  // namespace bench
 }  // namespace hgrid

@@ -54,6 +54,9 @@ Workload freeBodies(std::size_t count, std::size_t moving, double rate);
 /// descriptions are not found in the folder HGRID_TEST_DATA. If that variable is not set, the folder is ../shared/data
 /// beside the project.
 std::vector<Workload> realRobots(double rate);
+/// Returns `count` Pandas at rest on a square lattice, 1.2 m apart, with the names panda0, panda1, and so on. The root link
+/// of the first one is at the origin of the world. The descriptions of the robots must exist, see realRobots().
+Workload pandas(int count, double rate);
 /// Returns a Panda that rests among fixed boxes. Its root link is at the origin of the world. The descriptions of the
 /// robots must exist, see realRobots().
 Workload pandaAmong(const std::vector<OrientedBox>& boxes, double rate);

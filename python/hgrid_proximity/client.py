@@ -29,6 +29,7 @@ from hgrid_proximity.errors import NoAnswer, Refused
 from hgrid_proximity.events import Events
 from hgrid_proximity.fields import Field, FieldArrays
 from hgrid_proximity.msg import Obstacle, RobotChange, Shape, Verdict
+from hgrid_proximity.paths import GuardedPath
 from hgrid_proximity.service import LONGEST, Service
 from hgrid_proximity.states import Edges, States
 from hgrid_proximity.streams import DistanceArrays, PairArrays, as_arrays
@@ -117,6 +118,7 @@ class Proximity:
                 ("apply_robots", srv.ApplyRobots),
                 ("save_scene", srv.SaveScene),
                 ("load_scene", srv.LoadScene),
+                ("guard", srv.Guard),
             )
         }
 
@@ -301,6 +303,36 @@ class Proximity:
         request = srv.CheckEdgesRequest(tolerance=tolerance, any_contact=any_contact)
         request.start, request.end = _rows("start", start, joint_names), _rows("end", end, joint_names)
         return Edges(self._check(srv.CheckEdges, request, joint_names, **options))
+
+    def guard(
+        self, robot: str, joint_names: Iterable[str], positions, times, start: Optional[rospy.Time] = None
+    ) -> GuardedPath:
+        """Watches the path that a robot is about to follow, and answers whether it is free. The node checks the path again
+        whenever the world changes; the topic ~conflicts has the results.
+
+        @param positions  [rad or m] array of n rows, one for each point of the path, with one number for each joint
+        @param times  [s] n numbers, ascending: time from the start to each point. If the first one is not 0, the robot moves
+            from where it is now to the first point
+        @param start  [ROS time] when the path starts; None: now
+        @throws Refused  nothing was changed
+        @throws ValueError  a row does not have one number for each joint
+        """
+        joint_names = list(joint_names)
+        request = srv.GuardRequest(robot=robot, joint_names=joint_names)
+        request.positions = _rows("positions", positions, joint_names)
+        request.time_from_start = [rospy.Duration.from_sec(time) for time in times]
+        if start is not None:
+            request.start = start
+        return GuardedPath(self._changes["guard"](request))
+
+    def stop_guard(self, robot: str):
+        """Stops watching all paths of a robot, also those of ~guard/topics. The next message on such a topic starts again.
+
+        @throws Refused  there is no such robot
+        """
+        response = self._changes["guard"](srv.GuardRequest(robot=robot))
+        if not response.success:
+            raise Refused(response.code.name, response.code.text)
 
     def apply_obstacles(self, *changes: Obstacle, complete_set: bool = False, owner: str = "", max_time: float = 0.0):
         """Makes all changes in their order, or none of them. `hgrid_proximity.obstacles` has functions that make changes.

@@ -177,6 +177,7 @@ Kinematics::Kinematics(const RobotModel& model) {
         joint.lower = link.lower;
         joint.upper = link.upper;
       }
+      if (joint.mimics) state->variables[joint.variable].is_mimicked = true;
       setPoses(link, parent.group_from_link * link.parent_from_joint, joint);
     }
     state->groups.push_back(joint);

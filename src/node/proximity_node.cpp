@@ -48,11 +48,13 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
           admin_thread_.node(), private_node, commons_, world_.transforms().lookup(),
           [this] { return tick_loop_.newest(); }, jobs_, world_.robots(), state_.restored().maps,
           [this] { return isEnding(); }),
+      guard_(batch_threads_.privateNode(), commons_, world_.transforms().lookup()),
+      path_topics_(node, commons_, guard_, [this] { return tick_loop_.newest(); }),
       services_(
           query_threads_.privateNode(), batch_threads_.privateNode(), admin_thread_.privateNode(), commons_,
           [this] { return tick_loop_.newest(); },
           [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); }, world_.transforms().lookup(),
-          history_, loading_, state_, stopwatch_, sketch_),
+          history_, loading_, state_, guard_, stopwatch_, sketch_),
       moveit_(
           admin_thread_.node(), query_threads_.node(), commons_, loading_.mapSource(), jobs_,
           [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); },
@@ -78,6 +80,7 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
   loading_.startClouds();
   moveit_.startTopics();
   trackers_.start();
+  path_topics_.start();
 }
 
 /// Stops all threads that use the parts of the node.
@@ -87,6 +90,7 @@ void ProximityNode::stop() {
   loading_.stopClouds();
   moveit_.stopTopics();
   trackers_.stop();
+  path_topics_.stop();
   tick_thread_.stop();
   query_threads_.stop();
   batch_threads_.stop();
@@ -126,6 +130,7 @@ std::vector<TickLoop::Step> ProximityNode::tickSteps() {
              if (tick->snapshot)
                commons_.health.noteThreads("~threads", commons_.settings.params.threads, tick->threads);
            }},
+          {"guard", [this](const TickPtr& tick) { guard_.see(tick); }},
           {"", [this](const TickPtr& tick) { completeness_log_.log(*tick); }},
           {"", [this](const TickPtr& tick) { model_log_.log(tick->models); }},
           {"audit", [this](const TickPtr& tick) { auditor_.see(tick); }}};

@@ -14,6 +14,8 @@
 #include "node/diagnostics/completeness_log.h"
 #include "node/diagnostics/model_log.h"
 #include "node/diagnostics/node_diagnostics.h"
+#include "node/guard/guard.h"
+#include "node/guard/path_topics.h"
 #include "node/housekeeping.h"
 #include "node/loading/loading.h"
 #include "node/moveit/moveit_interface.h"
@@ -68,6 +70,8 @@ class ProximityNode {
   CompletenessLog completeness_log_;
   ModelLog model_log_;
   Loading loading_;
+  Guard guard_;
+  PathTopics path_topics_;
   NodeServices services_;
   MoveItInterface moveit_;
   Trackers trackers_;

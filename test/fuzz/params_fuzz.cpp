@@ -83,6 +83,11 @@ class RangeCheck {
       within(name, cloud.min_points, 1, 1e8);
     }
   }
+  void pathTopics(const char*, const std::vector<PathTopicParams>& topics, const char*) {
+    for (const PathTopicParams& topic : topics) {
+      if (topic.topic.empty()) flaw = "a topic with paths has no name";
+    }
+  }
   void trackers(const char* name, const std::vector<TrackerParams>& trackers, const char*) {
     for (const TrackerParams& tracker : trackers) {
       named(name, tracker.name);

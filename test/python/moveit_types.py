@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Message and service classes of moveit_msgs, made from lists of their fields, because the package is not available on all
-machines. The MD5 of each class says that the fields are the right ones."""
+"""Message and service classes of moveit_msgs and control_msgs, made from lists of their fields, because these packages are
+not available on all machines. The MD5 of each class says that the fields are the right ones."""
 import genmsg
 import genmsg.gentools
 import genmsg.msg_loader
@@ -38,6 +38,17 @@ FIELDS = {
         sensor_msgs/MultiDOFJointState multi_dof_joint_state
         AttachedCollisionObject[] attached_collision_objects
         bool is_diff""",
+    "moveit_msgs/RobotTrajectory": """trajectory_msgs/JointTrajectory joint_trajectory
+        trajectory_msgs/MultiDOFJointTrajectory multi_dof_joint_trajectory""",
+    "moveit_msgs/DisplayTrajectory": "string model_id\nRobotTrajectory[] trajectory\nRobotState trajectory_start",
+    "control_msgs/JointTolerance": "string name\nfloat64 position\nfloat64 velocity\nfloat64 acceleration",
+    "control_msgs/FollowJointTrajectoryGoal": """trajectory_msgs/JointTrajectory trajectory
+        JointTolerance[] path_tolerance
+        JointTolerance[] goal_tolerance
+        duration goal_time_tolerance""",
+    "control_msgs/FollowJointTrajectoryActionGoal": """Header header
+        actionlib_msgs/GoalID goal_id
+        FollowJointTrajectoryGoal goal""",
     "moveit_msgs/AllowedCollisionEntry": "bool[] enabled",
     "moveit_msgs/AllowedCollisionMatrix": """string[] entry_names
         AllowedCollisionEntry[] entry_values
@@ -140,12 +151,13 @@ ONLY_IN_NOETIC = ("geometry_msgs/Pose pose", "string[] subframe_names", "geometr
 
 
 class Types:
-    """The classes of one release, by name without package: types["CollisionObject"], types.service("GetPlanningScene")."""
+    """The classes of one release. Those of moveit_msgs have their name without package: types["CollisionObject"],
+    types["control_msgs/JointTolerance"], types.service("GetPlanningScene")."""
 
     def __init__(self, noetic=True):
         self._context = genmsg.MsgContext.create_default()
         self._search = {}
-        for package in ("std_msgs", "geometry_msgs", "shape_msgs", "sensor_msgs", "trajectory_msgs"):
+        for package in ("std_msgs", "geometry_msgs", "shape_msgs", "sensor_msgs", "trajectory_msgs", "actionlib_msgs"):
             self._search[package] = [rospkg.RosPack().get_path(package) + "/msg"]
         for name, fields in FIELDS.items():
             lines = [line.strip() for line in fields.split("\n")]
@@ -155,7 +167,7 @@ class Types:
         self._classes = {}
 
     def __getitem__(self, name):
-        full = "moveit_msgs/" + name
+        full = name if "/" in name else "moveit_msgs/" + name
         if full not in self._classes:
             self._make(self._context.get_registered(full))
         return self._classes[full]

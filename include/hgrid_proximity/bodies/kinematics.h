@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -24,8 +25,14 @@ struct JointVariable {
   double lower = 0.0;     ///< [rad] or [m] lower limit; -infinity: none
   double upper = 0.0;     ///< [rad] or [m] upper limit; infinity: none
   bool is_angle = false;  ///< whether it is an angle [rad]
+  /// Whether another joint mimics its joint. Only Kinematics::variables() has this.
+  bool is_mimicked = false;
   /// Index of the first of the four variables of the quaternion that it belongs to; -1: it belongs to none.
   int quaternion = -1;
+
+  /// Returns whether adding a full turn to its value does not change where the links are: it is an angle without limits,
+  /// and no joint mimics its joint. Such a joint can take the shorter way around the circle.
+  bool turnsFreely() const { return is_angle && !is_mimicked && std::isinf(lower) && std::isinf(upper); }
 };
 
 /// Appends the variables that the joint of a link has if it does not mimic another joint.

@@ -36,6 +36,7 @@ class ChangeableCollector {
   void obstacles(const char*, const std::vector<ObstacleParams>&, const char*) {}
   void maps(const char*, const std::vector<MapParams>&, const char*) {}
   void clouds(const char*, const std::vector<CloudParams>&, const char*) {}
+  void pathTopics(const char*, const std::vector<PathTopicParams>&, const char*) {}
   void trackers(const char*, const std::vector<TrackerParams>&, const char*) {}
   void pairMargins(const char*, const std::vector<PairMargin>&, double, double, const char*) {}
   void values(const char*, const std::vector<PatternValue>&, const char*, const char*, double, double, const char*) {}

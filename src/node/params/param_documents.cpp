@@ -68,6 +68,7 @@ class RowCollector {
   void obstacles(const char* name, const std::vector<ObstacleParams>&, const char* meaning) { list(name, meaning); }
   void maps(const char* name, const std::vector<MapParams>&, const char* meaning) { list(name, meaning); }
   void clouds(const char* name, const std::vector<CloudParams>&, const char* meaning) { list(name, meaning); }
+  void pathTopics(const char* name, const std::vector<PathTopicParams>&, const char* meaning) { list(name, meaning); }
   void trackers(const char* name, const std::vector<TrackerParams>&, const char* meaning) { list(name, meaning); }
   void pairMargins(const char* name, const std::vector<PairMargin>&, double low, double high, const char* meaning) {
     add(name, "list", "m", "[]", range(low, high), meaning);

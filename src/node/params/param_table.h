@@ -329,11 +329,23 @@ void visitParams(Visitor& v, Params& p) {
             "number of threads that answer queries; a query waits only while all of them are busy");
   v.integer("batch_threads", p.batch_threads, 1, 64,
             "number of threads that answer requests with many questions (~query_batch, ~distance_field, ~check_states, "
-            "~check_edges). Such a request may take seconds. Other queries have threads of their own (~query_threads)");
+            "~check_edges, ~guard). Such a request may take seconds. Other queries have threads of their own (~query_threads)");
   v.number(
       "lease_max", p.lease_max, "s", 0.0, 3600.0,
       "longest time for which a request can make the node keep a tick (a lease), so that later requests are answered "
       "from the same tick; the node keeps at most 16 ticks");
+  v.pathTopics(
+      "guard/topics", p.path_topics,
+      "list of {topic, robot}: topics with the paths that robots are commanded to follow. The messages may be "
+      "trajectory_msgs/JointTrajectory, control_msgs/FollowJointTrajectoryActionGoal or "
+      "moveit_msgs/DisplayTrajectory. robot: name of the robot; default 'robot'. A robot may have several topics, for "
+      "example one for each arm. A message without points ends the path of its topic");
+  v.number("guard/ahead", p.guard_ahead, "s", 0.1, 600.0,
+           "how far ahead the paths of robots are checked (~guard, ~conflicts)");
+  v.number("guard/deviation", p.guard_deviation, "rad or m", 0.0, 1000.0,
+           "how far a joint may be from the path that its robot follows; if it is farther, all paths without a conflict are UNKNOWN");
+  v.number("guard/budget", p.guard_budget, "s", 0.001, 10.0,
+           "longest time of one check of all paths; what was not checked in this time is UNKNOWN");
   v.number("audit_rate", p.audit_rate, "Hz", 0.0, 10.0,
            "how many ticks per second are audited: a thread of low priority computes the poses, the pairs and some "
            "queries of the tick again, by brute force from the transforms as they were received; 0: none");

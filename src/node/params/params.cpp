@@ -178,6 +178,21 @@ class Reader {
               value.push_back(cloud);
             });
   }
+  void pathTopics(const char* name, std::vector<PathTopicParams>& value, const char*) {
+    forEach(name, "field of a topic with paths (topic, robot)", [&](ParamValue& element) {
+      PathTopicParams topic;
+      readString(element, "topic", topic.topic, true);
+      checkTopic(element, topic.topic);
+      readString(element, "robot", topic.robot, false);
+      for (const PathTopicParams& other : value) {
+        if (other.topic == topic.topic && other.robot == topic.robot) {
+          element.error("has topic '" + printable(topic.topic) + "' and robot '" + printable(topic.robot) +
+                        "', as another element; list each of them once");
+        }
+      }
+      value.push_back(topic);
+    });
+  }
   void trackers(const char* name, std::vector<TrackerParams>& value, const char*) {
     trackers_ = get(name);  // finish() reads them, as obstacles
     trackers_target_ = &value;

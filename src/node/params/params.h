@@ -92,6 +92,12 @@ struct TrackerParams {
   int max_tracks = 100;                 ///< largest number of tracks
 };
 
+/// A topic with the paths that a robot is commanded to follow, from ~guard/topics.
+struct PathTopicParams {
+  std::string topic;            ///< topic of its messages; their type is found when they arrive
+  std::string robot = "robot";  ///< name of the robot
+};
+
 /// [m] Corner coordinate of a crop box that is larger than any map.
 constexpr double kNoCrop = 1e7;
 
@@ -164,6 +170,8 @@ struct Params {
   double mesh_timeout = 5.0;
   int query_threads = 8, batch_threads = 2;
   double lease_max = 10.0;
+  std::vector<PathTopicParams> path_topics;
+  double guard_ahead = 10.0, guard_deviation = 0.1, guard_budget = 1.0;
   double marker_rate = 5.0;
   double audit_rate = 0.2;
   std::string audit_folder;

@@ -11,7 +11,8 @@ namespace hgrid {
 NodeServices::NodeServices(const ros::NodeHandle& query_node, const ros::NodeHandle& batch_node,
                            const ros::NodeHandle& admin_node, Commons& commons, ServiceEnvelope::NewestTick newest,
                            ChangeWorld change_world, const TransformLookup& transforms, const TickHistory& history,
-                           Loading& loading, StateKeeper& state, Stopwatch& stopwatch, QuerySketch& sketch)
+                           Loading& loading, StateKeeper& state, Guard& guard, Stopwatch& stopwatch,
+                           QuerySketch& sketch)
     : questions_(query_node, newest, commons.ledger),
       batch_questions_(batch_node, newest, commons.ledger),
       changes_(admin_node, newest, commons.ledger),
@@ -19,6 +20,7 @@ NodeServices::NodeServices(const ros::NodeHandle& query_node, const ros::NodeHan
       batches_(batch_questions_, commons.settings.params, transforms, history, leases_, commons.narrow_phase),
       fields_(batch_questions_, commons.settings.params, transforms, history, leases_, commons.narrow_phase),
       states_(batch_questions_, commons.settings.params, transforms, leases_, commons.narrow_phase),
+      guard_(batch_questions_, guard),
       explain_(questions_, commons.settings.params, history, commons.narrow_phase),
       allowed_(changes_, commons.settings.params, change_world, [&state] { return state.waitUntilStored(); }),
       maps_(changes_, loading.mapSource(), change_world,

@@ -10,6 +10,7 @@
 #include "node/services/batch_service.h"
 #include "node/services/explain_service.h"
 #include "node/services/field_service.h"
+#include "node/services/guard_service.h"
 #include "node/services/map_services.h"
 #include "node/services/obstacle_service.h"
 #include "node/services/query_services.h"
@@ -36,7 +37,7 @@ class NodeServices {
   NodeServices(const ros::NodeHandle& query_node, const ros::NodeHandle& batch_node, const ros::NodeHandle& admin_node,
                Commons& commons, ServiceEnvelope::NewestTick newest, ChangeWorld change_world,
                const TransformLookup& transforms, const TickHistory& history, Loading& loading, StateKeeper& state,
-               Stopwatch& stopwatch, QuerySketch& sketch);
+               Guard& guard, Stopwatch& stopwatch, QuerySketch& sketch);
 
   /// Forgets the ticks of leases that have ended. Any thread may call this. @param epoch  the present epoch
   void dropEndedLeases(std::uint64_t epoch) { leases_.dropEnded(epoch); }
@@ -48,6 +49,7 @@ class NodeServices {
   BatchService batches_;
   FieldService fields_;
   StateServices states_;
+  GuardService guard_;
   ExplainService explain_;
   AllowedServices allowed_;
   MapServices maps_;

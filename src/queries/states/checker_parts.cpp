@@ -26,16 +26,10 @@ std::uint32_t rootBodyOf(const Snapshot& snapshot, const RobotShapes& robot) {
   return Structure::kNone;
 }
 
-/// Returns for each variable whether adding a full turn to its value does not change where the links are. This is so
-/// for an angle without limits that no joint mimics.
+/// Returns for each variable whether it turns freely.
 std::vector<bool> wrapsOf(const Kinematics& kinematics) {
   std::vector<bool> wraps;
-  for (const JointVariable& variable : kinematics.variables()) {
-    wraps.push_back(variable.is_angle && std::isinf(variable.lower) && std::isinf(variable.upper));
-  }
-  for (const JointMotion& joint : kinematics.state().groups) {
-    if (joint.mimics) wraps[joint.variable] = false;
-  }
+  for (const JointVariable& variable : kinematics.variables()) wraps.push_back(variable.turnsFreely());
   return wraps;
 }
 

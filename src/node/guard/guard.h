@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <hgrid_proximity/Conflicts.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "node/commons.h"
+#include "node/guard/path_check.h"
+#include "node/guard/path_list.h"
+#include "node/tick/newest_only.h"
+
+namespace hgrid {
+
+/// Checks the paths of robots again whenever the world changes, and publishes the results as ~conflicts.
+///
+/// A thread of its own checks, so no tick waits for it. If a check takes longer than a period, the thread continues
+/// with the newest tick. While no robot has a path, it does nothing. All functions may be called by any thread.
+class Guard {
+ public:
+  /// All parameters that are passed by reference must outlive this object.
+  Guard(ros::NodeHandle private_node, Commons& commons, const TransformLookup& transforms);
+
+  /// Watches a path. It replaces the one that the robot had from the same source. Until
+  /// `start`, the robot is expected to continue its earlier path, or to stand still; then it moves to the first point.
+  /// @param source  see PathList::put()
+  /// @param start   [ROS time] when the robot begins to move to the first point
+  /// @throws Refusal what checkPath(), robotNamed() and presentJoints() throw; unknown_id for a joint that the robot
+  /// does not have; out_of_range for a path that ended before the tick, or for a joint that turns too far between two
+  /// points; limit for too many points
+  /// @returns the stored path
+  std::shared_ptr<const RobotPath> follow(const std::string& source, RobotPath path, Time start, const Tick& tick);
+  /// Notes that nobody knows which path the robot follows, until the next path from the same source.
+  void markUnreadable(const std::string& source, const std::string& robot, const std::string& why, const Tick& tick);
+  /// Forgets the path of a robot from one source, if it has one.
+  void stop(const std::string& source, const std::string& robot) { paths_.remove(source, robot); }
+  /// Forgets all paths of a robot. @returns whether it had one
+  bool stopAll(const std::string& robot) { return paths_.removeAll(robot); }
+  /// Checks all paths now. @returns the answer for the robot of this path
+  /// @throws Refusal conflict if another path has replaced it, or if it was removed
+  PathAnswer check(const std::shared_ptr<const RobotPath>& path, const Tick& tick);
+  /// Passes a tick to the thread, and never waits for it.
+  void see(const std::shared_ptr<const Tick>& tick);
+
+ private:
+  using Found = std::tuple<std::string, std::string, std::string>;  // robot and the two bodies of a conflict
+
+  RobotPaths currentPaths(const Tick& tick);
+  std::vector<PathAnswer> check(const RobotPaths& paths, const Tick& tick);
+  void publish(const Tick& tick);
+
+  Commons& commons_;
+  const TransformLookup& transforms_;
+  ros::Publisher publisher_;
+  PathList paths_;
+  std::map<Found, Time> since_;       // only the thread uses it: when each conflict was found for the first time
+  std::atomic<bool> watched_{false};  // whether the last message had a path
+  NewestOnly<std::shared_ptr<const Tick>> thread_;  // declared last, because its thread uses the members above
+};
+
+}  // namespace hgrid
