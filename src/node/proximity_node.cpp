@@ -148,7 +148,7 @@ std::vector<Chore> ProximityNode::chores() {
            }},
           {"leases.failed", kAlways,
            [this](Time) {
-             if (const auto newest = tick_loop_.newest()) services_.dropEndedLeases(newest->epoch);
+             if (const auto newest = tick_loop_.newest()) services_.dropUnused(newest->epoch);
            }},
           {"diagnostics.failed", kDiagnosticsPause, [this](Time) { diagnostics_.update(); }}};
 }

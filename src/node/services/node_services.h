@@ -39,8 +39,12 @@ class NodeServices {
                const TransformLookup& transforms, const TickHistory& history, Loading& loading, StateKeeper& state,
                Guard& guard, Stopwatch& stopwatch, QuerySketch& sketch);
 
-  /// Forgets the ticks of leases that have ended. Any thread may call this. @param epoch  the present epoch
-  void dropEndedLeases(std::uint64_t epoch) { leases_.dropEnded(epoch); }
+  /// Drops the ticks of ended leases, and the checkers that no request has used for a second. Any thread may call this.
+  /// @param epoch  the present epoch
+  void dropUnused(std::uint64_t epoch) {
+    leases_.dropEnded(epoch);
+    states_.dropUnused();
+  }
 
  private:
   ServiceEnvelope questions_, batch_questions_, changes_;

@@ -20,8 +20,13 @@ constexpr double kFarthest = 10.0;  // [m] upper limit of max_clearance
 
 template <class Request>
 AskedStates askedOf(const Request& request) {
-  AskedStates asked{request.robot, request.group,           request.joint_names,
-                    request.ignore, request.other_joint_names, request.other_positions, {}};
+  AskedStates asked{request.robot,
+                    request.group,
+                    request.joint_names,
+                    request.ignore,
+                    request.other_joint_names,
+                    request.other_positions,
+                    {}};
   if (request.use_base) asked.base = request.base;
   return asked;
 }
@@ -121,7 +126,7 @@ void StateServices::answer(ServiceCall<msg::CheckStates>& call) {
   const std::shared_ptr<const Tick> newest = chooseTick(call);
   checkCount("states", request.positions.size(), request.joint_names.size());
   const StateQuestion question =
-      stateQuestion(askedOf(request), request.positions, *call.tick.get(), *newest, transforms_, narrow_phase_);
+      stateQuestion(askedOf(request), request.positions, *call.tick.get(), *newest, transforms_, narrow_phase_, cache_);
   if (request.max_clearance > kFarthest) {
     throw Refusal(Code::out_of_range, "max_clearance is " + text(request.max_clearance) + " m; it must be at most " +
                                           text(kFarthest) + " m");
@@ -130,15 +135,15 @@ void StateServices::answer(ServiceCall<msg::CheckStates>& call) {
   asked.clearance = request.max_clearance;
   asked.gradients = request.gradients;
   asked.deadline = end;
-  StateScratch scratch;
+  thread_local StateScratch scratch;  // its memory is used again by the next request
   StateAnswers answers;
-  question.checker.checkStates(question.batch, asked, scratch, answers);
+  question.checker->checkStates(question.batch, asked, scratch, answers);
   const TickDoubt doubt(question.doubt, call.tick, request.lease.sequence != 0);
-  AnswerWriter<msg::CheckStates::Response> writer(question.checker, doubt, answers.states.size(), response);
+  AnswerWriter<msg::CheckStates::Response> writer(*question.checker, doubt, answers.states.size(), response);
   for (std::size_t i = 0; i < answers.states.size(); ++i) {
     const StateAnswer& state = answers.states[i];
     writer.add(state.verdict, state.because, state.refused, state.beyond_limits,
-               state.because == Unknown::no ? "" : question.checker.sentenceOf(question.batch, answers, i));
+               state.because == Unknown::no ? "" : question.checker->sentenceOf(question.batch, answers, i));
     writer.addPair(state.pairs == 0 ? nullptr : &answers.pairs[state.first_pair]);
     if (asked.clearance > 0.0) response.clearance.push_back(state.clearance);
     if (response.verdicts.back() != static_cast<std::uint8_t>(Verdict::unknown)) continue;
@@ -168,24 +173,24 @@ void StateServices::answer(ServiceCall<msg::CheckEdges>& call) {
   std::vector<double> positions = request.start;
   positions.insert(positions.end(), request.end.begin(), request.end.end());
   const auto count = static_cast<std::uint32_t>(width == 0 ? 0 : request.start.size() / width);
-  const StateQuestion question =
-      stateQuestion(askedOf(request), std::move(positions), *call.tick.get(), *newest, transforms_, narrow_phase_);
+  const StateQuestion question = stateQuestion(askedOf(request), std::move(positions), *call.tick.get(), *newest,
+                                               transforms_, narrow_phase_, cache_);
   std::vector<StateEdge> edges;
   for (std::uint32_t i = 0; i < count; ++i) edges.push_back({i, count + i});
   EdgeRequest asked;
   if (request.tolerance != 0.0) asked.tolerance = request.tolerance;
   asked.any_contact = request.any_contact;
   asked.deadline = end;
-  StateScratch scratch;
+  thread_local StateScratch scratch;  // its memory is used again by the next request
   EdgeAnswers answers;
-  question.checker.checkEdges(question.batch, edges, asked, scratch, answers);
+  question.checker->checkEdges(question.batch, edges, asked, scratch, answers);
   const TickDoubt doubt(question.doubt, call.tick, request.lease.sequence != 0);
-  AnswerWriter<msg::CheckEdges::Response> writer(question.checker, doubt, answers.edges.size(), response);
+  AnswerWriter<msg::CheckEdges::Response> writer(*question.checker, doubt, answers.edges.size(), response);
   for (std::size_t i = 0; i < answers.edges.size(); ++i) {
     const EdgeAnswer& edge = answers.edges[i];
     const StatePair* const pair = edge.pairs == 0 ? nullptr : &answers.pairs[edge.first_pair];
     writer.add(edge.verdict, edge.because, edge.refused, edge.beyond_limits,
-               edge.because == Unknown::no ? "" : question.checker.sentenceOf(question.batch, answers, i));
+               edge.because == Unknown::no ? "" : question.checker->sentenceOf(question.batch, answers, i));
     writer.addPair(pair);
     response.free_until.push_back(doubt.because == Unknown::no ? edge.free_until : 0.0);
     response.at.push_back(edge.at);

@@ -10,6 +10,7 @@
 
 #include "hgrid_proximity/narrow/narrow_phase.h"
 #include "node/services/envelope/service_envelope.h"
+#include "node/states/checker_cache.h"
 #include "node/tf/transform_lookup.h"
 #include "node/tick/leases.h"
 
@@ -22,6 +23,8 @@ class StateServices {
   /// All objects that are passed by reference must outlive this object.
   StateServices(ServiceEnvelope& envelope, const Params& params, const TransformLookup& transforms, Leases& leases,
                 std::shared_ptr<const NarrowPhase> narrow_phase);
+  /// Frees memory that no request has used for a second.
+  void dropUnused() { cache_.dropUnused(); }
 
  private:
   void answer(ServiceCall<msg::CheckStates>& call);
@@ -34,6 +37,7 @@ class StateServices {
   const TransformLookup& transforms_;
   Leases& leases_;
   const std::shared_ptr<const NarrowPhase> narrow_phase_;
+  CheckerCache cache_;
   std::vector<ros::ServiceServer> servers_;
 };
 

@@ -64,10 +64,10 @@ using OtherJoints = std::map<std::string, std::map<std::string, double>>;
 /// @throws Refusal out_of_range, unknown_id, not_ready, conflict, dup_id
 OtherJoints otherJoints(const AskedStates& asked, const std::string& robot, const Tick& tick) {
   if (asked.other_joint_names.size() != asked.other_positions.size()) {
-    throw Refusal(Code::out_of_range,
-                  "other_joint_names has " + std::to_string(asked.other_joint_names.size()) +
-                      " entries, and other_positions " + std::to_string(asked.other_positions.size()) +
-                      "; give one position for each name");
+    throw Refusal(Code::out_of_range, "other_joint_names has " + std::to_string(asked.other_joint_names.size()) +
+                                          " entries, and other_positions " +
+                                          std::to_string(asked.other_positions.size()) +
+                                          "; give one position for each name");
   }
   OtherJoints others;
   for (std::size_t i = 0; i < asked.other_joint_names.size(); ++i) {
@@ -108,11 +108,11 @@ class JoinedQuestion {
     return root.doubt.empty() ? followerOf(other, given, false, placed, tick, transforms) : root.doubt;
   }
   /// Returns a checker for which only bodies of the checked robot count.
-  StateChecker checker(StateCheckerOptions options, const Tick& tick,
-                       std::shared_ptr<const NarrowPhase> measures) const {
+  std::shared_ptr<const StateChecker> checker(StateCheckerOptions options, const Tick& tick,
+                                              const std::shared_ptr<const NarrowPhase>& measures) const {
     for (std::string& variable : options.group) variable = robot_.name + "/" + variable;
     options.robots = {robot_.name};
-    return {tick.snapshot, Kinematics(joinRobots(joined_)), "", std::move(measures), options};
+    return std::make_shared<const StateChecker>(tick.snapshot, Kinematics(joinRobots(joined_)), "", measures, options);
   }
 
  private:
@@ -135,7 +135,7 @@ void checkCounting(const StateChecker& checker, const AskedStates& asked) {
 
 StateQuestion stateQuestion(const AskedStates& asked, std::vector<double> positions, const Tick& tick,
                             const Tick& newest, const TransformLookup& transforms,
-                            std::shared_ptr<const NarrowPhase> narrow_phase) {
+                            const std::shared_ptr<const NarrowPhase>& narrow_phase, CheckerCache& cache) {
   checkPatterns(asked.ignore);
   if (asked.joint_names.empty() && !positions.empty()) {
     throw Refusal(Code::out_of_range, "the request has " + std::to_string(positions.size()) +
@@ -167,8 +167,8 @@ StateQuestion stateQuestion(const AskedStates& asked, std::vector<double> positi
   }
   const StateCheckerOptions options = optionsOf(asked, robot, tick);
   if (others.empty()) {
-    StateChecker checker(tick.snapshot, kinematics, robot.name, std::move(narrow_phase), options);
-    checkCounting(checker, asked);
+    std::shared_ptr<const StateChecker> checker = cache.get(tick, robot, options, narrow_phase);
+    checkCounting(*checker, asked);
     return {std::move(checker), std::move(batch), std::move(doubt)};
   }
   JoinedQuestion joined(robot, *batch.world_from_root, batch);
@@ -180,8 +180,8 @@ StateQuestion stateQuestion(const AskedStates& asked, std::vector<double> positi
     const std::string doubt_of_other = joined.add(other, values, placed, tick, transforms);
     if (doubt.empty()) doubt = doubt_of_other;
   }
-  StateChecker checker = joined.checker(options, tick, std::move(narrow_phase));
-  checkCounting(checker, asked);
+  std::shared_ptr<const StateChecker> checker = joined.checker(options, tick, narrow_phase);
+  checkCounting(*checker, asked);
   return {std::move(checker), std::move(batch), std::move(doubt)};
 }
 

@@ -4,11 +4,13 @@
 
 #include <geometry_msgs/Pose.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "hgrid_proximity/queries/state_checker.h"
+#include "node/states/checker_cache.h"
 #include "node/tf/transform_lookup.h"
 #include "node/tick/tick.h"
 
@@ -27,7 +29,7 @@ struct AskedStates {
 
 /// A request about states of a robot, prepared for StateChecker.
 struct StateQuestion {
-  StateChecker checker;
+  std::shared_ptr<const StateChecker> checker;  ///< never null
   StateBatch batch;
   /// Why nobody knows where the robot, another robot of the request, or something that moves with one of them would be;
   /// empty: it is known.
@@ -38,12 +40,13 @@ struct StateQuestion {
 /// @param positions  rows of values of joint_names
 /// @param tick       the tick that the request asks about
 /// @param newest     the newest tick
+/// @param cache      has the checkers of earlier requests
 /// @throws Refusal what robotNamed() or robotWith(), presentJoints(), presentRoot(), fromPose() and StateChecker throw;
 /// out_of_range if there are positions but no names of joints, or not one value for each of other_joint_names;
 /// unknown_id, conflict or dup_id for an entry of other_joint_names; conflict if a robot of the request was loaded
 /// again since the tick
 StateQuestion stateQuestion(const AskedStates& asked, std::vector<double> positions, const Tick& tick,
                             const Tick& newest, const TransformLookup& transforms,
-                            std::shared_ptr<const NarrowPhase> narrow_phase);
+                            const std::shared_ptr<const NarrowPhase>& narrow_phase, CheckerCache& cache);
 
 }  // namespace hgrid
