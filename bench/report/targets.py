@@ -116,6 +116,22 @@ def sameness(figures, verdicts):
                        all(record['correct'] for record in asked))
 
 
+def meshes(figures, verdicts):
+    """With the bound of the last measurement, as in the node, and without any bound. FCL has no bound in both."""
+    for field, what in (('hgrid_limited_us', 'with the bound of the last measurement'), ('hgrid_us', 'without a bound')):
+        times = [ratio(record['fcl_us'], record[field]) for record in figures.all('mesh') if record['correct']]
+        verdicts.at_least('distances of meshes %s: times faster than FCL alone, least of %d rows' % (what, len(times)), 3,
+                          min(times) if times else None)
+
+
+def states(figures, verdicts):
+    for record in figures.all('states'):
+        least = 6 if record['which'] == 'in contact' else {10: 4, 1000: 5, 10000: 8}.get(record['boxes'])
+        if least and record['correct']:
+            verdicts.at_least('states of %s %s among %s boxes: times faster than FCL'
+                              % (record['robot'], record['which'], count(record['boxes'])), least, record['ratio'])
+
+
 def sweep_fairness(figures, verdicts):
     """Judges whether the sweep peer is about as fast, relative to FCL's tree, as when the targets were set."""
     was = {'uniform': 26 / 32, 'mixed': 18 / 34, 'floor': 7.7 / 34, 'robots': 10 / 32}
@@ -133,6 +149,13 @@ def node(figures, verdicts):
         added = with_maps['p99_ms'] - without['p99_ms'] if without and with_maps else None
         what = 'node, a map of 1,000,000 leaves replaced every second, 1 %% changed: ms added to the p99 of %s' % part
         verdicts.at_most(what, 2, added)
+    for record in figures.all('node batch'):
+        if 'check_states' in record['title']:
+            verdicts.at_most('node, %s: time ÷ library alone' % record['title'], 1.5, record['ratio'])
+    for record in figures.all('node guard'):
+        for field, when in (('free_ms', 'free'), ('conflict_ms', 'in conflict')):
+            verdicts.at_most('node, 4 arms with paths of 10 s, %s: median ms from a tick to ~conflicts' % when, 5,
+                             record[field])
 
 
 def threads(figures, verdicts):
@@ -167,6 +190,8 @@ def verdicts_table(figures):
     maps(figures, verdicts)
     if figures.all('pairs', peer='hgrid'):
         sameness(figures, verdicts)
+    meshes(figures, verdicts)
+    states(figures, verdicts)
     sweep_fairness(figures, verdicts)
     node(figures, verdicts)
     met = sum(row[-1] == 'met' for row in verdicts.rows)
