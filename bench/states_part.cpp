@@ -85,8 +85,9 @@ Times race(StateContest& contest, const std::vector<double>& states, int turns) 
   return {medianOf(ours), medianOf(theirs), medianOf(ratios), tests};
 }
 
-void play(const StateRobot& robot, std::size_t boxes, int turns, std::vector<Record>& records) {
-  StateContest contest(robot, boxes);
+void play(const StateRobot& robot, const StateWorld& world, int turns, std::vector<Record>& records) {
+  StateContest contest(robot, world);
+  const std::size_t boxes = world.allBoxes().size();
   Verdicts verdicts;
   const Kinds kinds = findStates(contest, verdicts);
   std::printf("  %-8s %6zu boxes: %zu states, %.1f %% in contact; verdicts differ: %zu inside meshes, %zu others%s\n",
@@ -119,9 +120,14 @@ void runStates(const Options& options, std::vector<Record>& records) {
   if (robots.empty()) std::printf("  without robots: no example-robot-data in HGRID_TEST_DATA or ../shared/data\n");
   std::vector<std::size_t> sizes{10, 1000, 10000};
   if (!options.sizes.empty()) sizes = options.sizes;
+  const std::optional<StateWorld> building = buildingWorld();
   for (const StateRobot& robot : robots) {
     if (!options.peer(robot.name)) continue;
-    for (const std::size_t boxes : sizes) play(robot, boxes, options.quick ? 5 : 21, records);
+    const int turns = options.quick ? 5 : 21;
+    for (const std::size_t boxes : sizes) play(robot, randomWorld(boxes), turns, records);
+    if (!building || !options.sizes.empty()) continue;
+    std::printf("  in the map geb079; FCL has its leaves as boxes:\n");
+    play(robot, *building, turns, records);
   }
 }
 

@@ -78,7 +78,7 @@ BatchMeasurement measureStates(double duration) {
   StateRobot robot{"Panda", test::readWith(loader, texts.urdf), readSrdf(texts.srdf), {}};
   const Kinematics kinematics(robot.model);
   for (const JointVariable& variable : kinematics.variables()) robot.group.push_back(variable.name);
-  StateScene scene(robot, boxes);
+  StateScene scene(robot, StateWorld{boxes, {}, Pose::Identity()});
   Random random(5);
   scene.batch.positions = scene.randomStates(random, kStates);
 

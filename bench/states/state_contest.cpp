@@ -4,11 +4,20 @@
 
 #include <time.h>
 
+#include "bench/maps/map.h"
+#include "bench/maps/map_peer.h"
+
 namespace hgrid {
 namespace bench {
 
-StateContest::StateContest(const StateRobot& tested, std::size_t boxes) : StateScene(tested, randomBoxes(boxes)) {
-  fcl = std::make_unique<FclStates>(robot, *matrix, randomBoxes(boxes), batch.others);
+StateContest::StateContest(const StateRobot& tested, const StateWorld& world) : StateScene(tested, world) {
+  fcl = std::make_unique<FclStates>(robot, *matrix, world.allBoxes(), batch.others);
+}
+
+std::optional<StateWorld> buildingWorld() {
+  const std::string file = fileOfGeb079();
+  if (file.empty()) return std::nullopt;
+  return StateWorld{{}, readMap(file), Pose(Eigen::Translation3d(0.0, 2.0, -0.1))};
 }
 
 double threadTime() {

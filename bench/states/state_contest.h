@@ -12,12 +12,16 @@
 namespace hgrid {
 namespace bench {
 
-/// A robot among random boxes, prepared for hgrid and for FCL.
+/// A robot in a world, prepared for hgrid and for FCL.
 struct StateContest : StateScene {
-  StateContest(const StateRobot& tested, std::size_t boxes);
+  StateContest(const StateRobot& tested, const StateWorld& world);
 
   std::unique_ptr<FclStates> fcl;
 };
+
+/// Returns the map geb079, with a free place on its floor at the origin. nullopt: there is no such file, see
+/// fileOfGeb079().
+std::optional<StateWorld> buildingWorld();
 
 /// Returns the processor time of this thread [us]. Other programs on a busy machine do not count.
 double threadTime();

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "bench/meshes/mesh_set.h"
+#include "bench/states/sphere_cover.h"
 #include "hgrid_proximity/adapters/srdf.h"
 #include "hgrid_proximity/adapters/urdf.h"
 
@@ -72,6 +73,9 @@ std::vector<StateRobot> stateRobots() {
     }
     all.push_back(std::move(robot));
   }
+  StateRobot covered = all.front();
+  covered.name += " of " + std::to_string(coverBySpheres(covered.model)) + " spheres";
+  all.push_back(std::move(covered));
   return all;
 }
 

@@ -18,9 +18,10 @@ struct StateRobot {
   std::vector<std::string> group;  ///< the variables that differ between the states
 };
 
-/// Reads the Panda, the UR5, and the PR2 with its right arm as the group. Their files are in the folder HGRID_TEST_DATA
-/// or, if that is not set, in ../shared/data beside the project. Returns nothing if there are no such files, or if the
-/// libraries for reading URDFs were not found.
+/// Reads the Panda, the UR5, and the PR2 with its right arm as the group. The last robot is the Panda, with spheres
+/// around its meshes (see coverBySpheres()). Their files are in the folder HGRID_TEST_DATA or, if that is not set, in
+/// ../shared/data beside the project. Returns nothing if there are no such files, or if the libraries for reading URDFs
+/// were not found.
 std::vector<StateRobot> stateRobots();
 
 }  // namespace bench

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hgrid_proximity/maps/map_cells.h"
+
 namespace hgrid {
 namespace bench {
 namespace {
@@ -38,14 +40,30 @@ std::vector<OrientedBox> randomBoxes(std::size_t count) {
   return boxes;
 }
 
-StateScene::StateScene(const StateRobot& tested, const std::vector<OrientedBox>& boxes)
+std::vector<OrientedBox> StateWorld::allBoxes() const {
+  std::vector<OrientedBox> all = boxes;
+  if (!map) return all;
+  for (const Voxel& leaf : map->occupied) {
+    const Eigen::Vector3d low = minCorner(leaf, map->resolution), high = maxCorner(leaf, map->resolution);
+    OrientedBox box;
+    box.size = high - low;
+    box.world_from_box = world_from_map * Eigen::Translation3d(0.5 * (low + high));
+    all.push_back(box);
+  }
+  return all;
+}
+
+StateWorld randomWorld(std::size_t boxes) { return {randomBoxes(boxes), {}, Pose::Identity()}; }
+
+StateScene::StateScene(const StateRobot& tested, const StateWorld& world)
     : robot(tested),
       kinematics(robot.model),
       matrix(std::make_shared<const LinkMatrix>(robot.model, robot.rules, warnings)),
       narrow_phase(makeCoreNarrowPhase()) {
   Scene scene{SceneOptions{}};
   addRobot(scene);
-  addBoxes(scene, boxes, *narrow_phase);
+  addBoxes(scene, world.boxes, *narrow_phase);
+  if (world.map) addMap(scene, world);
   StateCheckerOptions options;
   options.group = robot.group;
   checker = std::make_unique<StateChecker>(scene.commit(Time{1}, {}), kinematics, "robot", narrow_phase, options);
@@ -70,6 +88,18 @@ void StateScene::addRobot(Scene& scene) {
     body.shapes = link.shapes;
     scene.place(scene.add(body), Pose::Identity(), Time{1});
   }
+}
+
+void StateScene::addMap(Scene& scene, const StateWorld& world) {
+  Body body;
+  body.name = "map/building";
+  body.frame = "world";
+  body.kind = BodyKind::map;
+  body.mobility = Mobility::fixed;
+  const BodyId id = scene.add(body);
+  scene.place(id, world.world_from_map, Time{1});
+  const auto grid = std::make_shared<const StaticGrid>(world.map->resolution, world.map->occupied);
+  scene.setCells(id, makeMapCells(grid, *narrow_phase));
 }
 
 void addBoxes(Scene& scene, const std::vector<OrientedBox>& boxes, NarrowPhase& narrow_phase) {

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/states/state_robots.h"
 #include "bench/workload/random.h"
+#include "hgrid_proximity/adapters/octomap.h"
 #include "hgrid_proximity/geometry/oriented_box.h"
 #include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "hgrid_proximity/queries/state_checker.h"
@@ -16,10 +18,22 @@
 namespace hgrid {
 namespace bench {
 
-/// A robot among boxes, with a StateChecker for them.
+/// The surroundings of a robot. The root link is at the origin of the world.
+struct StateWorld {
+  std::vector<OrientedBox> boxes;  ///< fixed in the world
+  std::optional<Octomap> map;      ///< has further boxes, its occupied leaves
+  Pose world_from_map = Pose::Identity();
+
+  /// Returns all boxes, those of the map as well.
+  std::vector<OrientedBox> allBoxes() const;
+};
+
+/// Returns boxes at random places, see randomBoxes().
+StateWorld randomWorld(std::size_t boxes);
+
+/// A robot in a world, with a StateChecker for it.
 struct StateScene {
-  /// @param boxes  fixed in the world; the root link is at the origin of the world
-  StateScene(const StateRobot& tested, const std::vector<OrientedBox>& boxes);
+  StateScene(const StateRobot& tested, const StateWorld& world);
   /// Returns random values of the group within the limits, state after state.
   std::vector<double> randomStates(Random& random, std::size_t count) const;
 
@@ -35,6 +49,7 @@ struct StateScene {
 
  private:
   void addRobot(Scene& scene);
+  void addMap(Scene& scene, const StateWorld& world);
 };
 
 /// Adds boxes that are fixed in the world as obstacles.
