@@ -175,6 +175,22 @@ class Guard(unittest.TestCase):
         self.addCleanup(publisher.unregister)
         return before
 
+    # Claim: a robot that is switched off takes its path with it, and hides no conflict of the others.
+    def test_a_robot_that_is_absent_hides_no_conflict(self):
+        self.arm.twin_at = 3.0
+        self.proximity.apply_robots(robots.add("twin", like="robot"))
+        try:
+            wait(lambda: self.proximity.pairs().usable, "the frames of the twin")
+            self.follow([[0, 0.5], [3, 0.5]], [0, 30])
+            self.follow([[0, 0.5], [0.5, 0.5]], [0, 30], robot="twin")
+            wait(lambda: self.last.robots == ["robot", "twin"] and self.conflict() is not None, "both paths")
+            self.proximity.apply_robots(robots.absent("twin"))
+            wait(lambda: self.last.robots == ["robot"], "the path of the robot alone")
+            self.assertIsNotNone(self.conflict())
+        finally:
+            self.proximity.apply_robots(robots.remove("twin"))
+            self.arm.twin_at = None
+
     # Claim: a message of each type is read, and a robot that must first go to the start of its path is watched there.
     def test_paths_are_taken_from_topics(self):
         touch = (TO_POST - 2 * math.asin(0.2)) / 3 * 6  # [s]
