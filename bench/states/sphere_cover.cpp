@@ -72,9 +72,8 @@ std::size_t coverBySpheres(RobotModel& model) {
       for (const Eigen::Vector3d& corner : slab) around.extend(corner);
       double radius = 0.0;
       for (const Eigen::Vector3d& corner : slab) radius = std::max(radius, (corner - around.center()).norm());
-      BodyShape sphere{Shape::sphere(std::max(radius, 1e-3))};
-      sphere.body_from_shape.translation() = around.center();
-      link.shapes.push_back(sphere);
+      const Shape sphere = Shape::sphere(std::max(radius, 1e-3));
+      link.shapes.push_back({sphere, Pose(Eigen::Translation3d(around.center())), 0.0, {}, Eigen::Vector3d::Ones()});
       ++spheres;
     }
   }

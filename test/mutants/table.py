@@ -70,7 +70,6 @@ UNPLACED = "node/world/unplaced_robots.cpp"
 WORLD = "node/world/world.cpp"
 SETTINGS = "node/params/settings.cpp"
 SCENE_MATRIX = "node/moveit/scene_matrix.cpp"
-PADDINGS = "node/world/link_paddings.h"
 PLACED = "node/world/placed_obstacle.cpp"
 
 CORE = [
@@ -474,8 +473,6 @@ NODE = [
     ("one of two entries is enough to allow a pair", SCENE_MATRIX,
      "enabled(first.second, second.second) && enabled(second.second, first.second)",
      "enabled(first.second, second.second)"),
-    ("a padding of MoveIt replaces a larger one", PADDINGS,
-     "if (shape.padding < padding) shape.padding = padding;", "if (padding > 0.0) shape.padding = padding;"),
     ("an obstacle of a group does not turn with the group", PLACED,
      "  obstacle.frame_from_body = after.frame_from_body * other_from_body;",
      "  obstacle.frame_from_body.translation() += after.frame_from_body.translation() - before.frame_from_body.translation();"),

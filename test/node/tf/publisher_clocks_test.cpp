@@ -34,6 +34,8 @@ TEST(PublisherClocks, ThatAreOnlySometimesAheadOrBehindAreNotListed) {
   for (double time = 10.0; time < 20.0; time += 0.5) {
     publish(clocks, "/late", -0.5, time, time + 0.4);
     publish(clocks, "/late", -0.01, time + 0.4, time + 0.5);
+    publish(clocks, "/early", 0.5, time, time + 0.4);
+    publish(clocks, "/early", -0.01, time + 0.4, time + 0.5);
   }
   EXPECT_TRUE(clocks.offsets(s(20.0)).empty());
 }

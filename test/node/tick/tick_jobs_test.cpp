@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <future>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -94,6 +95,26 @@ TEST(TickJobsRun, NeverDoesARefusedJobLater) {
   World world(settingsOf(params), false, 1, ledger, makeFclNarrowPhase());
   jobs.doAll(world, ledger);
   EXPECT_EQ(accepted, 1);
+  EXPECT_EQ(refused, 0);
+}
+
+/// Claim: a job that was refused while a tick was at an earlier job is not done by this tick either.
+TEST(TickJobsRun, IsNotDoneIfItWasRefusedWhileATickWasAtAnEarlierJob) {
+  TickJobs jobs([] { return false; }, std::chrono::milliseconds(500));
+  std::promise<void> refusal_came;
+  jobs.add("a", [&](World&) { refusal_came.get_future().wait(); });
+  int refused = 0;
+  Code code = Code::ok;
+  std::thread asking([&] { code = refusalOf(jobs, [&](World&) { ++refused; }).code(); });
+  while (jobs.waiting() < 2) std::this_thread::yield();
+  const Params params;
+  Ledger ledger;
+  World world(settingsOf(params), false, 1, ledger, makeFclNarrowPhase());
+  std::thread tick([&] { jobs.doAll(world, ledger); });
+  asking.join();
+  refusal_came.set_value();
+  tick.join();
+  EXPECT_EQ(code, Code::busy);
   EXPECT_EQ(refused, 0);
 }
 
