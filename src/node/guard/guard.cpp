@@ -16,7 +16,7 @@
 namespace hgrid {
 namespace {
 
-// Of a joint without limits from one point to the next [rad], [rad/s].
+// Largest turn [rad] and largest speed [rad/s] of a joint without limits between two points of a path.
 constexpr double kLongestTurn = 1000.0, kFastestTurn = 1e5;
 
 void checkJoints(const RobotPath& path, const Kinematics& kinematics) {

@@ -29,8 +29,8 @@ class Guard {
   /// All parameters that are passed by reference must outlive this object.
   Guard(ros::NodeHandle private_node, Commons& commons, const TransformLookup& transforms);
 
-  /// Watches a path. It replaces the one that the robot had from the same source. Until
-  /// `start`, the robot is expected to continue its earlier path, or to stand still; then it moves to the first point.
+  /// Watches a path. It replaces the one that the robot had from the same source. Until `start`, the robot is expected
+  /// to continue its earlier path, or to stand still. Then it moves to the first point.
   /// @param source  see PathList::put()
   /// @param start   [ROS time] when the robot begins to move to the first point
   /// @throws Refusal what checkPath(), robotNamed() and presentJoints() throw; unknown_id for a joint that the robot
@@ -38,13 +38,14 @@ class Guard {
   /// points; limit for too many points
   /// @returns the stored path
   std::shared_ptr<const RobotPath> follow(const std::string& source, RobotPath path, Time start, const Tick& tick);
-  /// Notes that nobody knows which path the robot follows, until the next path from the same source.
+  /// Notes that the newest path from this source could not be read. No path is clear until the source sends another
+  /// one.
   void markUnreadable(const std::string& source, const std::string& robot, const std::string& why, const Tick& tick);
   /// Forgets the path of a robot from one source, if it has one.
   void stop(const std::string& source, const std::string& robot) { paths_.remove(source, robot); }
   /// Forgets all paths of a robot. @returns whether it had one
   bool stopAll(const std::string& robot) { return paths_.removeAll(robot); }
-  /// Checks all paths now. @returns the answer for the robot of this path
+  /// Checks all paths now. @returns the answer for the robot of `path`
   /// @throws Refusal conflict if another path has replaced it, or if it was removed
   PathAnswer check(const std::shared_ptr<const RobotPath>& path, const Tick& tick);
   /// Passes a tick to the thread, and never waits for it.

@@ -14,7 +14,7 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kMostStates = 1000000, kMostPositions = 10000000;
+constexpr std::size_t kMostStates = 1000000;
 constexpr double kMostTurn = 1.5;  // [rad] largest turn of a joint without limits between two states
 
 /// Returns the first position of each joint of a path.

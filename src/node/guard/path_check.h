@@ -45,9 +45,9 @@ struct PathLimits {
 ///
 /// All robots of the paths move together (joinRobots()). Each robot in turn is the one whose contacts are looked for
 /// (StateCheckerOptions::robots). The times of all points divide the paths into edges, on which every joint moves at
-/// constant speed, so StateChecker::checkEdges() proves each of them to be free or finds the first contact.
-/// @param paths  of different robots
-/// If nobody knows where a robot will be, no path is clear.
+/// constant speed. StateChecker::checkEdges() proves that an edge is free, or it finds the first contact. If nobody
+/// knows where a robot will be, no path is clear.
+/// @param paths  paths of different robots
 /// @returns one answer for each path
 std::vector<PathAnswer> checkPaths(const RobotPaths& paths, const Tick& tick, const PathLimits& limits,
                                    const TransformLookup& transforms,

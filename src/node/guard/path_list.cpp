@@ -8,28 +8,36 @@
 
 namespace hgrid {
 
-/// Removes entries. Their memory is freed after the mutex is unlocked.
+/// Takes entries out of the list and returns them. The calling thread must have locked mutex_.
+template <class Predicate>
+std::list<PathList::Entry> PathList::takeIf(const Predicate& predicate) {
+  std::list<Entry> taken;
+  for (auto it = newest_first_.begin(); it != newest_first_.end();) {
+    const auto next = std::next(it);
+    if (predicate(*it)) taken.splice(taken.end(), newest_first_, it);
+    it = next;
+  }
+  count_ = newest_first_.size();
+  return taken;
+}
+
+/// Removes entries. Frees their memory after the mutex is unlocked. @returns whether there was one
 template <class Predicate>
 bool PathList::removeIf(const Predicate& predicate) {
   std::list<Entry> removed;
   const std::lock_guard<std::mutex> lock(mutex_);
-  for (auto it = newest_first_.begin(); it != newest_first_.end();) {
-    const auto next = std::next(it);
-    if (predicate(*it)) removed.splice(removed.end(), newest_first_, it);
-    it = next;
-  }
-  count_ = newest_first_.size();
+  removed = takeIf(predicate);
   return !removed.empty();
 }
 
 std::shared_ptr<const RobotPath> PathList::put(const std::string& source, RobotPath path, const Tick& tick) {
   const std::string robot = path.robot;
-  std::list<Entry> added;
-  added.push_back({source, std::make_shared<const RobotPath>(std::move(path)), tick.epoch,
-                   tick.snapshot ? tick.snapshot->sequence() : 0});
-  const std::shared_ptr<const RobotPath> stored = added.front().path;
-  removeIf([&](const Entry& entry) { return entry.source == source && entry.path->robot == robot; });
+  const auto stored = std::make_shared<const RobotPath>(std::move(path));
+  std::list<Entry> added{{source, stored, tick.epoch, tick.snapshot ? tick.snapshot->sequence() : 0}};
+  std::list<Entry> replaced;
+  // One lock for both steps: otherwise a check between them would find no path of the robot.
   const std::lock_guard<std::mutex> lock(mutex_);
+  replaced = takeIf([&](const Entry& entry) { return entry.source == source && entry.path->robot == robot; });
   newest_first_.splice(newest_first_.begin(), added);
   count_ = newest_first_.size();
   return stored;

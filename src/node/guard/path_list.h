@@ -47,6 +47,8 @@ class PathList {
     std::uint64_t epoch = 0, sequence = 0;  // of the tick with which the path was added
   };
   template <class Predicate>
+  std::list<Entry> takeIf(const Predicate& predicate);
+  template <class Predicate>
   bool removeIf(const Predicate& predicate);
   std::list<Entry> entries() const;
 

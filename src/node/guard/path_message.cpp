@@ -21,8 +21,6 @@ constexpr const char* kActionGoal = "cff5c1d533bf2f82dd0138d57f4304bb";
 constexpr const char* kDisplayNoetic = "41936b74e168ba754279ae683ce3f121";
 constexpr const char* kDisplayMelodic = "c3c039261ab9e8a11457dac56b6316c8";
 
-constexpr std::size_t kMostPositions = 10000000;
-
 template <class Message>
 Message read(const std::string& bytes) {
   Checked<Message> message;

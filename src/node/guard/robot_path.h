@@ -31,11 +31,14 @@ struct RobotPath {
 /// @throws Refusal out_of_range, nonfinite, conflict
 void checkPath(const RobotPath& path);
 
+/// Largest number of positions that are read or checked at one time.
+inline constexpr std::size_t kMostPositions = 10000000;
+
 /// Paths of different robots, or different paths of one robot; never null.
 using RobotPaths = std::vector<std::shared_ptr<const RobotPath>>;
 
 /// Returns the path of a robot that follows several paths at the same time, for example one for each arm.
-/// @param newest_first  at least one; if several of them have a joint, the first of these counts for it
+/// @param newest_first  at least one path; if several paths name a joint, the first of them gives its positions
 std::shared_ptr<const RobotPath> mergePaths(const RobotPaths& newest_first);
 
 }  // namespace hgrid

@@ -14,8 +14,8 @@
 namespace hgrid {
 
 /// Keeps the checkers that requests have used, because preparing one takes longer than checking a hundred states. A
-/// checker keeps its snapshot alive, so those that no request uses for a second are dropped. Any number of threads may
-/// use it.
+/// checker keeps its snapshot alive, so dropUnused() drops those that no request has used for a second. Any number of
+/// threads may use it.
 class CheckerCache {
  public:
   static constexpr std::size_t kMost = 4;  ///< number of checkers that are kept
