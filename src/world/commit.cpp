@@ -35,7 +35,7 @@ std::shared_ptr<PooledSnapshot> Scene::State::freshSnapshot() const {
 /// Computes the boxes of a body from its pose.
 void Scene::State::makeBoxes(std::size_t body, const Pose& world_from_body, Snapshot& snapshot) const {
   for (std::uint32_t proxy = structure->first_proxy[body]; proxy < structure->first_proxy[body + 1]; ++proxy) {
-    const ShapeInBody& shape = shapes[proxy];
+    const BodyShape& shape = *shapes[proxy];
     snapshot.boxes_[proxy] = boxOf(shape.shape, world_from_body * shape.body_from_shape, shape.padding, options.origin);
   }
 }

@@ -45,13 +45,21 @@ std::string gapLeftBy(const Body& body, const BodyPose& pose) {
 
 /// Finds the source of each body, and the required bodies that are absent.
 void Scene::State::fillSources(Structure& structure) const {
-  for (const Body& body : structure.bodies) structure.sources.push_back(sourceOf(body));
-  const std::vector<std::string> of_body = structure.sources;
-  sortNames(structure.sources);
-  for (const std::string& source : of_body) {
-    const auto found = std::lower_bound(structure.sources.begin(), structure.sources.end(), source);
-    structure.source_of.push_back(static_cast<std::uint32_t>(found - structure.sources.begin()));
+  std::vector<std::string> found;  // the sources; successive bodies with the same source share an element
+  structure.source_of.reserve(structure.bodies.size());
+  for (const Body& body : structure.bodies) {
+    std::string source = sourceOf(body);
+    if (found.empty() || found.back() != source) found.push_back(std::move(source));
+    structure.source_of.push_back(static_cast<std::uint32_t>(found.size() - 1));
   }
+  structure.sources = found;
+  sortNames(structure.sources);
+  std::vector<std::uint32_t> sorted;  // for each element of `found`: its index in Structure::sources
+  for (const std::string& source : found) {
+    const auto at = std::lower_bound(structure.sources.begin(), structure.sources.end(), source);
+    sorted.push_back(static_cast<std::uint32_t>(at - structure.sources.begin()));
+  }
+  for (std::uint32_t& source : structure.source_of) source = sorted[source];
   for (const std::string& pattern : options.required) {
     const bool present = std::any_of(structure.bodies.begin(), structure.bodies.end(),
                                      [&](const Body& body) { return matches(pattern, body.name); });

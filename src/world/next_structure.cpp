@@ -52,11 +52,16 @@ void Scene::State::rebuildStructure() {
   const BodiesBefore before(*structure, slots.size());
   std::vector<Aabb> next_sizes;
   std::vector<std::uint32_t> next_uncovered, known_bodies;
-  std::vector<ShapeInBody> next_shapes;
+  std::vector<const BodyShape*> next_shapes;
   std::vector<std::uint32_t> next_body_of_slot(slots.size(), Structure::kNone);
   next->bodies.reserve(slot_of_name.size());
-  next_shapes.reserve(slot_of_name.size());
-  next_sizes.reserve(slot_of_name.size());
+  next->ids.reserve(slot_of_name.size());
+  next->margin.reserve(slot_of_name.size());
+  next->first_proxy.reserve(slot_of_name.size() + 1);
+  next->body_of_proxy.reserve(shapes.size());  // roughly
+  known_bodies.reserve(slot_of_name.size());
+  next_shapes.reserve(shapes.size());
+  next_sizes.reserve(shapes.size());
   for (const auto& named : slot_of_name) {
     const Body& body = *bodies[named.second];
     if (!body.covered && !body.waived) next_uncovered.push_back(static_cast<std::uint32_t>(next->bodies.size()));
@@ -73,7 +78,7 @@ void Scene::State::rebuildStructure() {
     for (std::size_t i = 0; i < body.shapes.size(); ++i) {
       const BodyShape& shape = body.shapes[i];
       if (shape.shape.kind() == ShapeKind::plane) next->planes.push_back(static_cast<ProxyId>(next_shapes.size()));
-      next_shapes.push_back({shape.shape, shape.body_from_shape, shape.padding});
+      next_shapes.push_back(&shape);
       const bool has_size = known != Structure::kNone && !sizes_changed;
       next_sizes.push_back(has_size ? sizes[structure->first_proxy[known] + i] : sizeOf(shape, options.margin));
     }

@@ -40,12 +40,6 @@ struct Scene::State {
     std::uint64_t changed = 0;     // number of the first commit with the present `pose`
     BodyPose pose;
   };
-  struct ShapeInBody {
-    Shape shape;
-    Pose body_from_shape;
-    double padding;
-  };
-
   /// What a grown box was computed from.
   struct GrownFrom {
     Aabb box;          // the box before it was grown
@@ -134,7 +128,7 @@ struct Scene::State {
 
   std::shared_ptr<const Structure> structure = std::make_shared<Structure>();
   std::vector<std::uint32_t> uncovered;     // bodies of the structure that are neither covered nor waived, ascending
-  std::vector<ShapeInBody> shapes;          // indexed by the proxies of the structure
+  std::vector<const BodyShape*> shapes;     // indexed by the proxies of the structure, whose bodies have the shapes
   std::vector<std::uint32_t> body_of_slot;  // index of the body in the structure; kNone: the slot is not used
   std::vector<Aabb> sizes;                  // [m] for each proxy: the box of its shape in its own frame, see sizeOf()
   std::shared_ptr<const Snapshot> last;     // snapshot of the last commit; null before the first one

@@ -30,11 +30,17 @@ struct PooledSnapshot {
   bool finished = false;  ///< whether a commit has filled the snapshot; if the commit failed, it is not used again
 
   /// Releases what the next commit does not need: the cells of maps, the rooms, and the structure before the last
-  /// change.
-  void release() {
+  /// change. Also releases the structure, with its bodies, unless it is the newest one. Keeps the memory of the arrays,
+  /// so that a tick with a new structure need not allocate it.
+  /// @param revision  of the newest structure
+  void release(std::uint64_t revision) {
     snapshot.cells_.clear();
     snapshot.rooms_.reset();
     snapshot.events_.before.reset();
+    if (!snapshot.structure_ || snapshot.structure_->revision == revision) return;
+    setBroadPhase(nullptr);  // it refers to the structure
+    grid_revision = 0;
+    snapshot.structure_.reset();
   }
 };
 
@@ -63,19 +69,29 @@ class SnapshotPool {
     return snapshot;
   }
   void giveBack(std::unique_ptr<PooledSnapshot> snapshot) {
-    snapshot->release();
-    const std::lock_guard<std::mutex> lock(mutex_);
-    const bool current = snapshot->snapshot.structure().revision == revision_;
-    if (current && free_.size() < kMostKept) free_.push_back(std::move(snapshot));
+    std::unique_lock<std::mutex> lock(mutex_);
+    std::uint64_t revision = 0;
+    do {
+      revision = revision_;
+      lock.unlock();
+      snapshot->release(revision);  // takes long, so the lock is not held
+      lock.lock();
+    } while (revision != revision_);
+    if (free_.size() < kMostKept) free_.push_back(std::move(snapshot));
   }
-  /// Drops the snapshots of other structures, now and when they are given back. Allocates no memory.
+  /// Releases all structures but one, now and when snapshots are given back. Allocates no memory.
   void keepOnly(std::uint64_t revision) {
-    std::array<std::unique_ptr<PooledSnapshot>, kMostKept> dropped;  // destroyed after the lock was released
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (revision == revision_) return;
-    revision_ = revision;
-    std::move(free_.begin(), free_.end(), dropped.begin());
-    free_.clear();
+    std::array<std::unique_ptr<PooledSnapshot>, kMostKept> kept;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (revision == revision_) return;
+      revision_ = revision;
+      std::move(free_.begin(), free_.end(), kept.begin());
+      free_.clear();
+    }
+    for (std::unique_ptr<PooledSnapshot>& snapshot : kept) {
+      if (snapshot) giveBack(std::move(snapshot));
+    }
   }
 
   /// Returns memory for the control block of a shared pointer to a snapshot. `size` is the same in every call.

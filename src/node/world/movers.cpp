@@ -28,6 +28,12 @@ void Movers::Change::add(const std::string& frame, const SourceId& source, const
   join(body, frame_from_body);
 }
 
+void Movers::Change::reserve(std::size_t bodies) {
+  in_.reserve(in_.size() + bodies);
+  movers_.reserve(movers_.size() + bodies);
+  members_.reserve(members_.size() + bodies);
+}
+
 void Movers::Change::join(const Body& body, const Pose& frame_from_body) {
   in_.push_back(body);
   members_.push_back(memberAt(frame_from_body));
@@ -63,6 +69,8 @@ void Movers::beginLost(const std::set<std::string>& names) noexcept {
 
 Movers::Change Movers::changeWithout(const std::function<bool(const SourceId&)>& chosen) const {
   Change change;
+  change.movers_.reserve(movers_.size());
+  change.members_.reserve(members_.size());
   for (const Mover& mover : movers_) {
     const auto first = members_.begin() + static_cast<std::ptrdiff_t>(mover.first);
     const auto last = members_.begin() + static_cast<std::ptrdiff_t>(mover.last);

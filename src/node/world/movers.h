@@ -79,6 +79,8 @@ class Movers {
 /// can replace all of them at once.
 class Movers::Change {
  public:
+  /// Makes room for further movers with one body each.
+  void reserve(std::size_t bodies);
   /// Adds a mover with one body.
   void add(const std::string& frame, const SourceId& source, const Body& body, const Pose& frame_from_body);
   /// Adds a body to the mover that was added last.

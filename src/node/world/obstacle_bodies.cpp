@@ -221,6 +221,7 @@ void ObstacleBodies::restamp(Time now) noexcept {
 void ObstacleBodies::carryOut(ObstacleEdits edits, const std::string& world_frame, Movers& movers) {
   std::set<std::string> leaving;
   std::vector<Body> entering;
+  entering.reserve(edits.set.size());
   Time first_end = first_end_;
   for (const std::string& name : edits.removed) {
     if (present_.count(name) != 0) leaving.insert(name);
@@ -242,6 +243,7 @@ void ObstacleBodies::carryOut(ObstacleEdits edits, const std::string& world_fram
   if (!leaving.empty() || !entering.empty()) {
     Movers::Change change = movers.changeWithout(
         [&](const SourceId& source) { return source.kind == SourceKind::obstacle && leaving.count(source.name) != 0; });
+    change.reserve(entering.size());
     for (const Body& body : entering) {
       change.add(body.frame, SourceId::ofObstacle(body.name), body, body.frame_from_body);
     }
