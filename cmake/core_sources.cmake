@@ -67,6 +67,7 @@ set(HGRID_CORE_SOURCES
   src/history/kept_parts.cpp
   src/history/snapshot_record.cpp
   src/maps/cloud_cells.cpp
+  src/maps/distance_blocks.cpp
   src/maps/map_gap.cpp
   src/maps/self_filter.cpp
   src/maps/static_grid.cpp
@@ -111,8 +112,10 @@ set(HGRID_CORE_SOURCES
   src/queries/states/clearance_gradient.cpp
   src/queries/states/edge_checker.cpp
   src/queries/states/edge_search.cpp
+  src/queries/states/map_clearance.cpp
   src/queries/states/motion_bounds.cpp
   src/queries/states/robot_shapes.cpp
+  src/queries/states/sphere_cover.cpp
   src/queries/states/state_checker.cpp
   src/queries/states/state_doubts.cpp
   src/queries/states/state_search.cpp

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #ifdef __SSE2__
@@ -30,6 +31,17 @@ inline Four greatest(Four a, Four b) { return _mm_max_ps(a, b); }
 inline Four least(Four a, Four b) { return a < b ? a : b; }
 inline Four greatest(Four a, Four b) { return a > b ? a : b; }
 #endif
+
+/// Returns the square root of each value.
+inline Four squareRoot(Four values) {
+#if defined(__SSE2__)
+  return _mm_sqrt_ps(values);
+#elif defined(__aarch64__)
+  return vsqrtq_f32(values);
+#else
+  return Four{std::sqrt(values[0]), std::sqrt(values[1]), std::sqrt(values[2]), std::sqrt(values[3])};
+#endif
+}
 
 /// Limits each value to 0 .. 4 and then rounds it toward zero.
 inline FourCounts countsOf(Four values) {

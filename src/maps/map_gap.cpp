@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "maps/distance_blocks.h"
+
 namespace hgrid {
 namespace {
 
@@ -20,6 +22,7 @@ std::shared_ptr<const MapCells> makeMapCells(std::shared_ptr<const StaticGrid> g
     const double edge = std::ldexp(grid->finestEdge(), static_cast<int>(level));
     cells->cubes[level] = narrow_phase.block(Eigen::Vector3d::Constant(edge));
   }
+  cells->distances = std::make_shared<const DistanceBlocks>(*grid);
   cells->grid = std::move(grid);
   cells->unmapped = std::move(unmapped);
   return cells;

@@ -10,6 +10,8 @@
 
 namespace hgrid {
 
+class DistanceBlocks;
+
 /// The space that a map does not know to be free or occupied: the unknown cells, and everything outside `extent`. All
 /// values are in the frame of the map.
 struct UnmappedSpace {
@@ -21,6 +23,7 @@ struct UnmappedSpace {
 struct MapCells {
   std::shared_ptr<const StaticGrid> grid;                   ///< occupied cells in the body's frame
   std::shared_ptr<const UnmappedSpace> unmapped = nullptr;  ///< unknown space; null: any space may be unknown
+  std::shared_ptr<const DistanceBlocks> distances = nullptr;  ///< tells quickly what is far from all cells; may be null
   std::array<std::shared_ptr<const Solid>, Voxel::kLevels + 1> cubes = {};  ///< for each level: a cell as a solid
 
   /// Returns the center of a voxel [m] in the frame of its body.

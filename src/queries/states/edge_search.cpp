@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "queries/states/four_boxes.h"
 
 namespace hgrid {
 namespace {
@@ -16,6 +19,7 @@ constexpr double kMostProbes = 64;   // upper limit of the number of tested conf
 constexpr float kCoarse = 0.02f;     // [m] shapes are not measured while they can travel farther than this
 constexpr std::size_t kFewNear = 8;  // if more shapes are near in the middle of a part, the next parts are shorter
 constexpr double kNowhere = 2.0;     // a place behind the end of an edge
+constexpr float kTooFar = -std::numeric_limits<float>::infinity();  // reach of shapes that cannot meet
 constexpr double kShortest = 1e-12;  // parts of an edge that are this short are not divided
 
 /// Interpolates between two unit quaternions at constant speed, along the way on which `difference` leads.
@@ -80,6 +84,7 @@ void EdgeSearch::run() {
     for (std::size_t lane = 0; lane < 4; ++lane) {
       if ((open >> lane & 1u) != 0) findReaches(lane);
     }
+    findPairReaches(all);
     search_.findAll(all);
     for (std::size_t lane = 0; lane < 4; ++lane) {
       if ((open >> lane & 1u) == 0) continue;
@@ -214,9 +219,6 @@ void EdgeSearch::findReaches(std::size_t lane) {
       all_.motion.findPart(i, half, work.motion);
       memory_.shape_reach[i][lane] = withSlack(all_.motion.reachOf(i, work.motion));
     }
-    for (std::size_t i = 0; i < memory_.pair_reach.size(); ++i) {
-      memory_.pair_reach[i][lane] = withSlack(all_.motion.reachOfPair(i, work.motion));
-    }
     return;
   }
   for (std::size_t i = work.part.first; i < work.part.first + work.part.count; ++i) {
@@ -227,6 +229,24 @@ void EdgeSearch::findReaches(std::size_t lane) {
       memory_.pair_reach[near.pair][lane] = withSlack(all_.motion.reachOfPair(near.pair, work.motion));
     } else {
       memory_.shape_reach[near.own][lane] = withSlack(all_.motion.reachOf(near.own, work.motion));
+    }
+  }
+}
+
+/// Finds the same for the pairs of shapes of the robot. Two shapes cannot travel farther against each other than both
+/// together in the world. So most pairs, which are farther apart, need no bound of their own.
+/// @param lanes  the lanes in which everything is searched
+void EdgeSearch::findPairReaches(unsigned lanes) {
+  const std::vector<SelfPair>& pairs = all_.robot.selfPairs();
+  for (std::size_t i = 0; lanes != 0 && i < pairs.size(); ++i) {
+    const SelfPair& pair = pairs[i];
+    const Four most = (memory_.shape_reach[pair.first] + memory_.shape_reach[pair.second]) * (1.0f + 1e-6f);
+    const unsigned near = overlapping(memory_.placed[pair.first], memory_.placed[pair.second], most);
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      if ((lanes >> lane & 1u) == 0) continue;
+      memory_.pair_reach[i][lane] = (near >> lane & 1u) != 0
+                                        ? withSlack(all_.motion.reachOfPair(i, memory_.edges[lane].motion))
+                                        : kTooFar;
     }
   }
 }

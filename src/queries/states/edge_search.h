@@ -31,6 +31,7 @@ class EdgeSearch {
   bool isDone(EdgeInWork& work) const;
   void place(std::size_t lane);
   void findReaches(std::size_t lane);
+  void findPairReaches(unsigned lanes);
   void use(std::size_t lane);
   void useContact(EdgeInWork& work, const StatePair& contact) const;
   EdgePart keep(EdgeInWork& work, std::size_t lane, bool in_doubt) const;

@@ -8,6 +8,7 @@
 #include "hgrid_proximity/geometry/sphere.h"
 #include "hgrid_proximity/queries/query_scope.h"
 #include "hgrid_proximity/queries/state_checker.h"
+#include "queries/states/sphere_cover.h"
 #include "queries/states/tilted_box.h"
 
 namespace hgrid {
@@ -28,6 +29,7 @@ struct RobotShape {
   Pose group_from_shape;
   const BodyShape* what;        ///< the shape itself; the snapshot keeps it alive
   TiltedBox<float> in_group;    ///< box around the padded shape, in the frame of the group
+  SphereCover cover;            ///< spheres that contain the padded shape
   std::vector<Sphere> spheres;  ///< spheres inside the padded shape, in the frame of the group [m]
 };
 

@@ -7,31 +7,12 @@
 #include <tuple>
 
 #include "maps/map_gap.h"
+#include "queries/states/four_boxes.h"
 
 namespace hgrid {
 namespace {
 
 constexpr float kLikely = -0.01f;  // [m] shapes whose boxes overlap by more than this are measured early
-
-/// Returns one bit for each lane in which all bits of `lanes` are set.
-unsigned bitsOf(const FourCounts& lanes) {
-  return (lanes[0] & 1u) | (lanes[1] & 2u) | (lanes[2] & 4u) | (lanes[3] & 8u);
-}
-
-/// Returns for each lane whether two boxes are at most `by` [m] apart along each axis.
-unsigned overlapping(const FourShapes& a, const FourShapes& b, const Four& by) {
-  auto lanes = (a.min[0] <= b.max[0] + by) & (b.min[0] <= a.max[0] + by);
-  for (std::size_t k = 1; k < 3; ++k) lanes &= (a.min[k] <= b.max[k] + by) & (b.min[k] <= a.max[k] + by);
-  return bitsOf(reinterpret_cast<FourCounts>(lanes));
-}
-
-unsigned overlapping(const FourShapes& a, const Aabb& b, const Four& by) {
-  auto lanes = (a.min[0] <= allFour(b.max[0]) + by) & (allFour(b.min[0]) - by <= a.max[0]);
-  for (Eigen::Index k = 1; k < 3; ++k) {
-    lanes &= (a.min[k] <= allFour(b.max[k]) + by) & (allFour(b.min[k]) - by <= a.max[k]);
-  }
-  return bitsOf(reinterpret_cast<FourCounts>(lanes));
-}
 
 /// Returns whether two boxes may be at most `reach` [m] apart.
 bool mayReach(const Separation<float>& apart, float reach) {
@@ -96,6 +77,7 @@ void StateSearch::findAll(unsigned lanes) {
   findSelf();
   measureLikely();
   world_.isSmall() ? findInFewShapes() : findInGrid();
+  findFarFromMaps();
   forEachLane(lanes, [&](std::size_t lane) {
     std::vector<NearShapes>& near = scratch_.near[lane];
     if (isOpen(lane)) std::sort(near.begin(), near.end(), isNearer);
@@ -246,6 +228,23 @@ void StateSearch::measureLikely() {
   });
 }
 
+/// Finds for each map and shape the open states in which they are surely farther apart than the reach of the shape.
+void StateSearch::findFarFromMaps() {
+  scratch_.map_far.resize(world_.maps().size() * robot_.counting());
+  if (open_ == 0) return;
+  auto far = scratch_.map_far.begin();
+  for (const MapClearance& map : world_.clearances()) {
+    for (std::size_t own = 0; own < robot_.counting(); ++own, ++far) {
+      *far = static_cast<std::uint8_t>(
+          map.farther(scratch_.placed[own], robot_.shapes()[own].cover, scratch_.shape_reach[own], open_));
+    }
+  }
+}
+
+bool StateSearch::isFarFromMap(std::size_t lane, std::size_t map, std::size_t own) const {
+  return (scratch_.map_far[map * robot_.counting() + own] >> lane & 1u) != 0;
+}
+
 void StateSearch::findPlanesAndMaps(std::size_t lane) {
   for (std::uint32_t i = 0; i < world_.planes().size(); ++i) {
     for (std::uint32_t own = 0; own < robot_.counting() && isOpen(lane); ++own) {
@@ -257,7 +256,7 @@ void StateSearch::findPlanesAndMaps(std::size_t lane) {
   }
   for (std::uint32_t i = 0; i < world_.maps().size(); ++i) {
     for (std::uint32_t own = 0; own < robot_.counting() && isOpen(lane); ++own) {
-      if (robotIn(lane).allowed(own, world_.maps()[i].body)) continue;
+      if (isFarFromMap(lane, i, own) || robotIn(lane).allowed(own, world_.maps()[i].body)) continue;
       measure(lane, {0.0f, scratch_.shape_reach[own][lane], With::map, own, i, 0});
     }
   }

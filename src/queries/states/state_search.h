@@ -72,6 +72,7 @@ struct StateMemory {
   std::vector<std::uint8_t>
       spheres_known;              // for each shape of the robot: bit i: whether `spheres` has those of state i
   std::vector<Four> shape_reach;  // [m] for each shape of the robot: how near something outside the robot matters
+  std::vector<std::uint8_t> map_far;  // for each map and each shape of the robot: bits of the states in which it is far
   std::vector<Four> pair_reach;   // [m] for each pair of RobotShapes::selfPairs(): how near its shapes matter
   std::vector<FourDoubles> from, difference;  // for each variable: value at the beginning of an edge, and its change
   std::array<EdgeInWork, 4> edges;
@@ -127,6 +128,8 @@ class StateSearch {
   void findSelf();
   void findInFewShapes();
   void findInGrid();
+  void findFarFromMaps();
+  bool isFarFromMap(std::size_t lane, std::size_t map, std::size_t own) const;
   void findPlanesAndMaps(std::size_t lane);
   void consider(std::size_t lane, const NearShapes& near);
   const FourSpheres& spheresOf(std::size_t lane, std::size_t own);

@@ -31,7 +31,10 @@ WorldShapes::WorldShapes(const Snapshot& snapshot, const RobotShapes& robot, con
     grid_.setFixed(ids);
     grid_.update(ids, bounds_);
   }
-  forEachMap(snapshot, scope, [&](const PlacedMap& map) { maps_.push_back(map); });
+  forEachMap(snapshot, scope, [&](const PlacedMap& map) {
+    maps_.push_back(map);
+    clearances_.emplace_back(map, snapshot.origin());
+  });
   forEachPlane(snapshot, scope, [&](const PlacedPlane& plane) { planes_.push_back(plane); });
 }
 

@@ -9,6 +9,7 @@
 #include "queries/placed_map.h"
 #include "queries/placed_plane.h"
 #include "queries/states/four_spheres.h"
+#include "queries/states/map_clearance.h"
 #include "queries/states/robot_shapes.h"
 
 namespace hgrid {
@@ -32,6 +33,8 @@ class WorldShapes {
     return spheres_.data() + (shape == 0 ? 0 : shapes_[shape - 1].spheres);
   }
   const std::deque<PlacedMap>& maps() const { return maps_; }
+  /// Returns for each of maps() what tells that shapes are far from it.
+  const std::vector<MapClearance>& clearances() const { return clearances_; }
   const std::vector<PlacedPlane>& planes() const { return planes_; }
 
   /// Returns whether a search should test the few shapes() one by one, instead of calling overlapping().
@@ -52,6 +55,7 @@ class WorldShapes {
   // makes a search several times faster.
   HGrid grid_;
   std::deque<PlacedMap> maps_;
+  std::vector<MapClearance> clearances_;
   std::vector<PlacedPlane> planes_;
 };
 

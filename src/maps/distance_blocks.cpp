@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "maps/distance_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hgrid {
+namespace {
+
+constexpr std::size_t kMostPlaces = std::size_t{1} << 20;  // a map with more blocks in its bounds has none
+constexpr std::uint16_t kMostSquared = 169;                       // (2 * kFarthest)^2
+constexpr float kBoundRounding = 2e-6f;  // relative, and in finest edges: more than the rounding errors of a bound
+
+/// Returns the square of the gap, in half edges, between the center of a cell and another cell along an axis.
+constexpr std::uint16_t gapSquared(std::int32_t cells) {
+  const std::int32_t gap = std::max(0, 2 * (cells < 0 ? -cells : cells) - 1);
+  return static_cast<std::uint16_t>(gap * gap);
+}
+
+}  // namespace
+
+/// Squared distances [half edges^2] from the centers of cells to the nearest voxel, at most kMostSquared.
+struct DistanceBlocks::Block {
+  std::array<std::uint8_t, std::size_t{kEdge} * kEdge * kEdge> squared;
+};
+
+namespace {
+
+/// Squared distances in a box of cells around a block. Each pass finds the least sum of a value along an axis and the
+/// squared gap to it, and needs kEdge + 2 * kMargin values for kEdge results.
+template <std::int32_t kEdge, std::int32_t kMargin>
+struct Window {
+  static constexpr std::int32_t kAll = kEdge + 2 * kMargin;
+  std::uint16_t start[kAll][kAll][kAll];    // by z, y, x: 0 for an occupied cell, otherwise kMostSquared
+  std::uint16_t along_x[kAll][kAll][kEdge];
+  std::uint16_t along_y[kAll][kEdge][kEdge];
+
+  Window() { std::fill_n(&start[0][0][0], kAll * kAll * kAll, kMostSquared); }
+
+  /// Lowers kEdge values of `to` to those of `from` plus `gap`.
+  static void lower(const std::uint16_t* from, std::uint16_t gap, std::uint16_t* to) {
+    for (std::int32_t i = 0; i < kEdge; ++i) {
+      to[i] = std::min(to[i], static_cast<std::uint16_t>(from[i] + gap));
+    }
+  }
+  void spreadX() {
+    for (std::int32_t row = 0; row < kAll * kAll; ++row) {
+      std::uint16_t* const to = &along_x[0][0][0] + row * kEdge;
+      std::fill_n(to, kEdge, kMostSquared);
+      for (std::int32_t step = -kMargin; step <= kMargin; ++step) {
+        lower(&start[0][0][0] + row * kAll + kMargin + step, gapSquared(step), to);
+      }
+    }
+  }
+  void spreadY() {
+    for (std::int32_t z = 0; z < kAll; ++z) {
+      for (std::int32_t y = 0; y < kEdge; ++y) {
+        std::fill_n(along_y[z][y], kEdge, kMostSquared);
+        for (std::int32_t step = -kMargin; step <= kMargin; ++step) {
+          lower(along_x[z][y + kMargin + step], gapSquared(step), along_y[z][y]);
+        }
+      }
+    }
+  }
+  void spreadZ(std::uint8_t* squared) const {
+    for (std::int32_t z = 0; z < kEdge; ++z) {
+      for (std::int32_t y = 0; y < kEdge; ++y, squared += kEdge) {
+        std::uint16_t least[kEdge];
+        std::fill_n(least, kEdge, kMostSquared);
+        for (std::int32_t step = -kMargin; step <= kMargin; ++step) {
+          lower(along_y[z + kMargin + step][y], gapSquared(step), least);
+        }
+        for (std::int32_t x = 0; x < kEdge; ++x) squared[x] = static_cast<std::uint8_t>(least[x]);
+      }
+    }
+  }
+};
+
+}  // namespace
+
+DistanceBlocks::DistanceBlocks(const StaticGrid& grid) : grid_(grid) {
+  if (grid.size() == 0) return;
+  std::array<std::int32_t, 3> counts;
+  std::size_t places = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto keyOf = [&](double at) { return static_cast<std::int32_t>(std::lround(at / grid.finestEdge())); };
+    const auto k = static_cast<Eigen::Index>(axis);
+    first_cell_[axis] = keyOf(grid.bounds().min()[k]) - kMargin;
+    counts[axis] = (keyOf(grid.bounds().max()[k]) + kMargin - first_cell_[axis] + kEdge - 1) / kEdge;
+    corner_[k] = first_cell_[axis] * grid.finestEdge();
+    cell_counts_[axis] = static_cast<float>(counts[axis] * kEdge);
+    places *= static_cast<std::size_t>(counts[axis]);
+  }
+  if (places <= kMostPlaces) block_counts_ = counts;
+}
+
+DistanceBlocks::~DistanceBlocks() = default;
+
+/// Computes a block. @returns false if it is far from all voxels
+bool DistanceBlocks::fill(const std::array<std::int32_t, 3>& first, Block& block) const {
+  using Around = Window<kEdge, kMargin>;
+  Eigen::AlignedBox3d box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    box.min()[k] = (first[axis] - kMargin) * edge();
+    box.max()[k] = (first[axis] + kEdge + kMargin) * edge();
+  }
+  std::vector<Voxel> voxels;
+  grid_.overlapping(box, grid_.size(), voxels);
+  if (voxels.empty()) return false;
+  const auto window = std::make_unique<Around>();
+  for (const Voxel& voxel : voxels) {
+    const std::int32_t along = keysAlong(voxel), keys[]{voxel.x, voxel.y, voxel.z};
+    std::int32_t low[3], high[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = keys[axis] - Voxel::kOriginKey - (first[axis] - kMargin);
+      high[axis] = std::min(low[axis] + along, Around::kAll);
+      low[axis] = std::max(low[axis], 0);
+    }
+    for (std::int32_t z = low[2]; z < high[2]; ++z) {
+      for (std::int32_t y = low[1]; y < high[1]; ++y) {
+        for (std::int32_t x = low[0]; x < high[0]; ++x) window->start[z][y][x] = 0;
+      }
+    }
+  }
+  window->spreadX();
+  window->spreadY();
+  window->spreadZ(block.squared.data());
+  return true;
+}
+
+/// Makes a block, unless another thread has made it. @returns null if there is no memory left for it
+const DistanceBlocks::Block* DistanceBlocks::made(std::size_t number) const {
+  static const Block kFar = [] {
+    Block block{};
+    block.squared.fill(kMostSquared);
+    return block;
+  }();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const Block* known = blocks_[number].load(std::memory_order_relaxed);
+  if (known != nullptr || made_.size() == kMostBlocks) return known;
+  std::array<std::int32_t, 3> first;
+  std::size_t rest = number;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto count = static_cast<std::size_t>(block_counts_[axis]);
+    first[axis] = first_cell_[axis] + kEdge * static_cast<std::int32_t>(rest % count);
+    rest /= count;
+  }
+  auto block = std::make_unique<Block>();
+  if (fill(first, *block)) {
+    made_.push_back(std::move(block));
+    known = made_.back().get();
+  } else {
+    known = &kFar;
+  }
+  blocks_[number].store(known, std::memory_order_release);
+  return known;
+}
+
+Four DistanceBlocks::lowerBounds(const Four (&points)[3]) const {
+  if (block_counts_[0] == 0) return allFour(isKnown() ? kFarthest : 0.0f);
+  std::call_once(allocated_, [&] {
+    std::size_t places = 1;
+    for (const std::int32_t count : block_counts_) places *= static_cast<std::size_t>(count);
+    blocks_.reset(new std::atomic<const Block*>[places]());
+  });
+  using FourInts = std::int32_t __attribute__((vector_size(16)));
+  FourInts cells[3];
+  Four outside = allFour(0.0f), off_center = allFour(0.0f);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Four most = allFour(cell_counts_[axis] - 0.5f);
+    const Four within = least(greatest(points[axis], allFour(0.0f)), most);
+    const Four away = points[axis] - within;
+    cells[axis] = __builtin_convertvector(within, FourInts);
+    const Four off = within - (__builtin_convertvector(cells[axis], Four) + 0.5f);
+    outside += away * away;
+    off_center += off * off;
+  }
+  Four squared;
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    const std::int32_t x = cells[0][lane], y = cells[1][lane], z = cells[2][lane];
+    const auto number = static_cast<std::size_t>(((z / kEdge) * block_counts_[1] + y / kEdge) * block_counts_[0] +
+                                                 x / kEdge);
+    const Block* block = blocks_[number].load(std::memory_order_acquire);
+    if (block == nullptr) block = made(number);
+    const auto cell = static_cast<std::size_t>((z % kEdge * kEdge + y % kEdge) * kEdge + x % kEdge);
+    squared[lane] = block == nullptr ? 0.0f : static_cast<float>(block->squared[cell]);
+  }
+  const Four inside = greatest(squareRoot(squared) * 0.5f - squareRoot(off_center), allFour(0.0f));
+  // The voxels are within the blocks. So for a point outside, the way into the blocks and the way from there to a voxel
+  // form an angle of at least 90 degrees.
+  return squareRoot(outside + inside * inside) * (1.0f - kBoundRounding) - kBoundRounding;
+}
+
+}  // namespace hgrid

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include "queries/states/robot_shapes.h"
+
+namespace hgrid {
+
+/// Returns one bit for each lane in which all bits of `lanes` are set.
+inline unsigned bitsOf(const FourCounts& lanes) {
+  return (lanes[0] & 1u) | (lanes[1] & 2u) | (lanes[2] & 4u) | (lanes[3] & 8u);
+}
+
+/// Returns for each lane whether the axis-aligned boxes of two shapes are at most `by` [m] apart along each axis.
+inline unsigned overlapping(const FourShapes& a, const FourShapes& b, const Four& by) {
+  auto lanes = (a.min[0] <= b.max[0] + by) & (b.min[0] <= a.max[0] + by);
+  for (std::size_t k = 1; k < 3; ++k) lanes &= (a.min[k] <= b.max[k] + by) & (b.min[k] <= a.max[k] + by);
+  return bitsOf(reinterpret_cast<FourCounts>(lanes));
+}
+
+/// Returns the same for a shape and a box, which is relative to the origin of the snapshot as well.
+inline unsigned overlapping(const FourShapes& a, const Aabb& b, const Four& by) {
+  auto lanes = (a.min[0] <= allFour(b.max[0]) + by) & (allFour(b.min[0]) - by <= a.max[0]);
+  for (Eigen::Index k = 1; k < 3; ++k) {
+    lanes &= (a.min[k] <= allFour(b.max[k]) + by) & (allFour(b.min[k]) - by <= a.max[k]);
+  }
+  return bitsOf(reinterpret_cast<FourCounts>(lanes));
+}
+
+}  // namespace hgrid
