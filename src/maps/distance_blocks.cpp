@@ -9,7 +9,7 @@ namespace hgrid {
 namespace {
 
 constexpr std::size_t kMostPlaces = std::size_t{1} << 20;  // a map with more blocks in its bounds has none
-constexpr std::uint16_t kMostSquared = 169;                       // (2 * kFarthest)^2
+constexpr std::uint16_t kMostSquared = 169;                // (2 * kFarthest)^2
 constexpr float kBoundRounding = 2e-6f;  // relative, and in finest edges: more than the rounding errors of a bound
 
 /// Returns the square of the gap, in half edges, between the center of a cell and another cell along an axis.
@@ -32,7 +32,7 @@ namespace {
 template <std::int32_t kEdge, std::int32_t kMargin>
 struct Window {
   static constexpr std::int32_t kAll = kEdge + 2 * kMargin;
-  std::uint16_t start[kAll][kAll][kAll];    // by z, y, x: 0 for an occupied cell, otherwise kMostSquared
+  std::uint16_t start[kAll][kAll][kAll];  // by z, y, x: 0 for an occupied cell, otherwise kMostSquared
   std::uint16_t along_x[kAll][kAll][kEdge];
   std::uint16_t along_y[kAll][kEdge][kEdge];
 
@@ -180,8 +180,8 @@ Four DistanceBlocks::lowerBounds(const Four (&points)[3]) const {
   Four squared;
   for (std::size_t lane = 0; lane < 4; ++lane) {
     const std::int32_t x = cells[0][lane], y = cells[1][lane], z = cells[2][lane];
-    const auto number = static_cast<std::size_t>(((z / kEdge) * block_counts_[1] + y / kEdge) * block_counts_[0] +
-                                                 x / kEdge);
+    const auto number =
+        static_cast<std::size_t>(((z / kEdge) * block_counts_[1] + y / kEdge) * block_counts_[0] + x / kEdge);
     const Block* block = blocks_[number].load(std::memory_order_acquire);
     if (block == nullptr) block = made(number);
     const auto cell = static_cast<std::size_t>((z % kEdge * kEdge + y % kEdge) * kEdge + x % kEdge);

@@ -20,8 +20,8 @@ namespace hgrid {
 /// in it is first asked for, in about 10 us. Each block is computed along x, then y, then z (Felzenszwalb and
 /// Huttenlocher 2012, "Distance transforms of sampled functions"). Blocks that are far from all voxels share memory.
 ///
-/// Any number of threads may ask at the same time. A bound may be smaller while another thread computes a block, or if
-/// the memory is used up; it is never too large.
+/// Any number of threads may ask at the same time. A thread waits while another one computes a block. After kMostBlocks
+/// blocks, no further ones are kept, and bounds in them are 0.
 class DistanceBlocks {
  public:
   static constexpr float kFarthest = 6.5f;              ///< [finest edges] larger distances are not told apart
@@ -54,7 +54,7 @@ class DistanceBlocks {
   bool fill(const std::array<std::int32_t, 3>& first, Block& block) const;
 
   StaticGrid grid_;
-  std::array<std::int32_t, 3> first_cell_{};   // cell at corner_, in keys from the origin of the map
+  std::array<std::int32_t, 3> first_cell_{};    // cell at corner_, in keys from the origin of the map
   std::array<std::int32_t, 3> block_counts_{};  // number of blocks along each axis; 0: no block is ever made
   std::array<float, 3> cell_counts_{};          // number of cells along each axis
   Eigen::Vector3d corner_ = Eigen::Vector3d::Zero();

@@ -29,6 +29,7 @@ MAPS = "world/map_pairs.cpp"
 PLANES = "world/plane_pairs.cpp"
 AROUND_POINT = "queries/around_point.h"
 CLOUD = "maps/cloud_cells.cpp"
+DISTANCES = "maps/distance_blocks.cpp"
 PAST = "history/history.cpp"
 PAST_PARTS = "history/kept_parts.cpp"
 PAST_RECORD = "history/snapshot_record.cpp"
@@ -258,6 +259,12 @@ CORE = [
      "return unmapped.extent.contains(grown(Eigen::AlignedBox3d(in_map.center), radius)) &&", "return"),
     ("a query trusts a stale map as much as a fresh one", AROUND_POINT,
      "region_.radius + map.reach + touchSlack(region_", "region_.radius + touchSlack(region_"),
+    ("a bound adds two lengths that form an angle", DISTANCES, "return squareRoot(outside + inside * inside) *",
+     "return (squareRoot(outside) + inside) *"),
+    ("a bound is that of the center of a cell", DISTANCES, "squareRoot(squared) * 0.5f - squareRoot(off_center)",
+     "squareRoot(squared) * 0.5f"),
+    ("voxels in one layer around a block are not seen", DISTANCES, "box.min()[k] = (first[axis] - kMargin) * edge();",
+     "box.min()[k] = (first[axis] - kMargin + 2) * edge();"),
     ("a cell that a sensor sees again expires too early", CLOUD,
      "newest = std::max(newest, (known++)->stamp);", "newest = (known++)->stamp;"),
     ("a coordinate just below zero is put into the cell above", CLOUD,

@@ -21,8 +21,8 @@ struct UnmappedSpace {
 
 /// The occupied cells of a map or a cloud, with the solids for measuring them. It is immutable, and snapshots share it.
 struct MapCells {
-  std::shared_ptr<const StaticGrid> grid;                   ///< occupied cells in the body's frame
-  std::shared_ptr<const UnmappedSpace> unmapped = nullptr;  ///< unknown space; null: any space may be unknown
+  std::shared_ptr<const StaticGrid> grid;                     ///< occupied cells in the body's frame
+  std::shared_ptr<const UnmappedSpace> unmapped = nullptr;    ///< unknown space; null: any space may be unknown
   std::shared_ptr<const DistanceBlocks> distances = nullptr;  ///< tells quickly what is far from all cells; may be null
   std::array<std::shared_ptr<const Solid>, Voxel::kLevels + 1> cubes = {};  ///< for each level: a cell as a solid
 

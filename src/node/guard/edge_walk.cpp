@@ -7,9 +7,9 @@
 namespace hgrid {
 namespace {
 
-// Largest number of edges in one call of checkEdges(). The number starts at 1 and doubles, so that an early conflict
-// wastes little work.
-constexpr std::size_t kAtOnce = 16;
+// Smallest and largest number of edges in one call of checkEdges(), which examines four edges at a time. The number
+// doubles with each call, so that an early conflict wastes little work.
+constexpr std::size_t kFewestEdges = 4, kMostEdges = 64;
 
 /// Returns a time in seconds as nanoseconds.
 Time duration(double seconds) { return std::chrono::duration_cast<Time>(std::chrono::duration<double>(seconds)); }
@@ -18,7 +18,7 @@ Time duration(double seconds) { return std::chrono::duration_cast<Time>(std::chr
 
 std::string EdgeWalk::advance(const StateChecker& checker, std::size_t& first) {
   request_.any_contact = true;
-  for (std::size_t count = 1; first + 1 < times_.size(); count = std::min(2 * count, kAtOnce)) {
+  for (std::size_t count = kFewestEdges; first + 1 < times_.size(); count = std::min(2 * count, kMostEdges)) {
     check(checker, first, count);
     for (const EdgeAnswer& edge : found_.edges) {
       if (edge.verdict == Verdict::hit) {
@@ -40,7 +40,8 @@ PathAnswer EdgeWalk::clearUntil(std::size_t end) const {
 
 void EdgeWalk::extend(PathAnswer& answer, const StateChecker& checker, std::size_t first) {
   request_.any_contact = false;
-  for (std::size_t count = 1; first + 1 < times_.size() && !answer.conflict; count = std::min(2 * count, kAtOnce)) {
+  std::size_t count = 1;  // in most cases, the first edge has the conflict
+  for (; first + 1 < times_.size() && !answer.conflict; count = std::min(2 * count, kMostEdges)) {
     check(checker, first, count);
     for (std::size_t i = 0; i < edges_.size() && !answer.conflict; ++i) add(answer, checker, i);
     first += edges_.size();

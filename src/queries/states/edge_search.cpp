@@ -244,9 +244,8 @@ void EdgeSearch::findPairReaches(unsigned lanes) {
     const unsigned near = overlapping(memory_.placed[pair.first], memory_.placed[pair.second], most);
     for (std::size_t lane = 0; lane < 4; ++lane) {
       if ((lanes >> lane & 1u) == 0) continue;
-      memory_.pair_reach[i][lane] = (near >> lane & 1u) != 0
-                                        ? withSlack(all_.motion.reachOfPair(i, memory_.edges[lane].motion))
-                                        : kTooFar;
+      memory_.pair_reach[i][lane] =
+          (near >> lane & 1u) != 0 ? withSlack(all_.motion.reachOfPair(i, memory_.edges[lane].motion)) : kTooFar;
     }
   }
 }

@@ -8,8 +8,8 @@
 namespace hgrid {
 namespace {
 
-constexpr double kMostAlong = 8.0;  // spheres along the longest axis
-constexpr double kMostSpheres = 12.0;      // spheres in all, roughly
+constexpr double kMostAlong = 8.0;     // spheres along the longest axis
+constexpr double kMostSpheres = 12.0;  // spheres in all, roughly
 
 }  // namespace
 
