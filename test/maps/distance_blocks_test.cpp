@@ -68,6 +68,33 @@ TEST_P(DistanceBlocksOracle, BoundsAreNeverTooLargeAndAtMostADiagonalTooSmall) {
   EXPECT_EQ(known > 0, blocks_.isKnown());
 }
 
+// The blocks begin at the first voxel. The second one is at each place in relation to their borders.
+TEST(DistanceBlocks, AVoxelIsSeenFromEverywhereNearIt) {
+  Random random(9);
+  int near = 0;
+  for (std::uint16_t step = 0; step < 24; ++step) {
+    const auto key = static_cast<std::uint16_t>(32768 + 40 + step);
+    const Map map{"two", 0.05, {{32768, 32768, 32768, 0}, {key, key, key, 0}}};
+    const DistanceBlocks blocks{StaticGrid(map.edge, map.voxels)};
+    const Eigen::Vector3d center = Eigen::Vector3d::Constant((40.5 + step) * map.edge);
+    for (int i = 0; i < 300; ++i) {
+      std::array<Eigen::Vector3d, 4> at;
+      for (Eigen::Vector3d& point : at) {
+        point = center + map.edge * Eigen::Vector3d(random.uniform(-8, 8), random.uniform(-1, 1), random.uniform(-1, 1));
+        std::swap(point[0], point[random.below(3)]);
+      }
+      const FourPoints points(blocks, at);
+      const Four bounds = blocks.lowerBounds(points.values);
+      for (std::size_t lane = 0; lane < 4; ++lane) {
+        const double nearest = nearestTo(map, blocks, points, lane);
+        ASSERT_LE(bounds[lane], nearest + 1e-4) << "step " << step << ", point " << at[lane].transpose();
+        near += nearest > 4.5 && nearest < 6.0 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(near, 1000);
+}
+
 TEST(DistanceBlocks, MapsWithTooManyBlocksAreNotKnown) {
   int known = 0, unknown = 0;
   for (const Map& map : maps()) {
