@@ -137,7 +137,68 @@ void PairFilter::copySets(const PairFilter& from, const std::vector<std::uint32_
   }
 }
 
-PairFilter PairFilter::forBodies(const BodyList& bodies, const std::vector<std::uint32_t>& known) const {
+/// Returns NameMatches::globs for this filter.
+NameMatches::Globs PairFilter::globs() const {
+  NameMatches::Globs globs;
+  globs.reserve(glob_rules_.size());
+  for (const std::uint32_t rule : glob_rules_) {
+    if (rule == kNoRule) {
+      globs.emplace_back();
+    } else {
+      globs.emplace_back(rules_[rule].first, rules_[rule].second);
+    }
+  }
+  return globs;
+}
+
+/// Sets the bit sets of a body to those of its name. The globs must be those of this filter.
+/// @returns false if `from` does not contain the name
+bool PairFilter::copyMatch(const NameMatches& from, const std::string& name, std::uint32_t body) {
+  const auto found = std::lower_bound(from.names.begin(), from.names.end(), name);
+  if (found == from.names.end() || *found != name) return false;
+  const std::size_t source = static_cast<std::size_t>(found - from.names.begin()) * words_, target = body * words_;
+  for (std::size_t word = 0; word < words_; ++word) {
+    as_first_[target + word] = from.as_first[source + word];
+    as_second_[target + word] = from.as_second[source + word];
+    if ((as_first_[target + word] | as_second_[target + word]) != 0) subjects_[body].ruled |= kByGlob;
+  }
+  return true;
+}
+
+/// Sets the bit sets of the bodies that are not known, as far as `matches` contain their names.
+/// @returns the indices of the other bodies that are not known
+std::vector<std::uint32_t> PairFilter::copyMatches(const std::vector<NameMatches>& matches, const BodyList& bodies,
+                                                   const std::vector<std::uint32_t>& known) {
+  const NameMatches::Globs present = matches.empty() ? NameMatches::Globs() : globs();
+  std::vector<const NameMatches*> usable;
+  for (const NameMatches& one : matches) {
+    if (one.globs == present) usable.push_back(&one);
+  }
+  std::vector<std::uint32_t> others;
+  for (std::uint32_t body = 0; body < known.size(); ++body) {
+    if (known[body] != kUnknown) continue;
+    const auto has_name = [&](const NameMatches* one) { return copyMatch(*one, bodies[body].name, body); };
+    if (std::none_of(usable.begin(), usable.end(), has_name)) others.push_back(body);
+  }
+  return others;
+}
+
+NameMatches PairFilter::match(std::vector<std::string> names) const {
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  BodyList bodies;
+  bodies.reserve(names.size());
+  for (const std::string& name : names) {
+    Body body;
+    body.name = name;
+    bodies.push_back(std::make_shared<const Body>(std::move(body)));
+  }
+  PairFilter matched = forBodies(bodies, std::vector<std::uint32_t>(names.size(), kUnknown));
+  return {globs(), std::move(names), std::move(matched.as_first_), std::move(matched.as_second_)};
+}
+
+PairFilter PairFilter::forBodies(const BodyList& bodies, const std::vector<std::uint32_t>& known,
+                                 const std::vector<NameMatches>& matches) const {
   PairFilter next;
   next.exists_ = exists_;
   next.rules_ = rules_;
@@ -149,11 +210,7 @@ PairFilter PairFilter::forBodies(const BodyList& bodies, const std::vector<std::
   next.fillNamed(NameIndex(bodies));
   if (words_ == 0) return next;
   next.copySets(*this, known);
-  std::vector<std::uint32_t> others;
-  for (std::uint32_t body = 0; body < known.size(); ++body) {
-    if (known[body] == kUnknown) others.push_back(body);
-  }
-  next.matchGlobs(NameIndex(bodies, std::move(others)));
+  next.matchGlobs(NameIndex(bodies, next.copyMatches(matches, bodies, known)));
   return next;
 }
 

@@ -42,7 +42,7 @@ PairFilter Scene::State::filterFor(const BodyList& next, const std::vector<std::
   if (!rules_changed) earlier = &structure->filter;
   if (prepared && prepared->revision == structure->revision) earlier = &prepared->filter;
   if (earlier == nullptr) return PairFilter(next, options.pair_kinds, options.allowed_pairs);
-  return bodies_changed ? earlier->forBodies(next, known) : *earlier;
+  return bodies_changed ? earlier->forBodies(next, known, name_matches) : *earlier;
 }
 
 void Scene::State::rebuildStructure() {
@@ -106,6 +106,7 @@ void Scene::State::rebuildStructure() {
   if (options.finest_edge > 0.0) scale.finest_edge = options.finest_edge;
   structure_changed = bodies_changed = rules_changed = sizes_changed = false;
   prepared.reset();
+  name_matches.clear();
 }
 
 /// Copies the boxes of the bodies that were in the last snapshot, whose structure was another one.

@@ -3,7 +3,10 @@
 #include "hgrid_proximity/world/scene.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <set>
+#include <utility>
 
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/refusal.h"
@@ -15,6 +18,7 @@ namespace {
 constexpr double kLargestMargin = 1e3;  // [m] also the largest padding, hysteresis, growth cap and finest edge
 // [m] Largest coordinate of a shape in the frame of its body, and of a body in the world frame.
 constexpr double kFarthestShape = 1e6;
+constexpr std::ptrdiff_t kMostMatches = 64;  // largest length of State::name_matches, of which each has all globs
 
 void checkLength(double value, double limit, const std::string& what) {
   if (!(value >= 0.0 && value <= limit)) {
@@ -347,6 +351,21 @@ void Scene::removeRules(const std::vector<bool>& gone) {
     }
     setRules(std::move(rules));
   }
+}
+
+void Scene::prepareNames(NameMatches matches) {
+  std::vector<NameMatches>& kept = state_->name_matches;
+  kept.push_back(std::move(matches));
+  // The bodies of some matches were perhaps never added. Their number is limited, because the next commit with a new
+  // structure may come much later.
+  std::size_t names = 0;
+  auto oldest = kept.end();
+  while (oldest != kept.begin() && kept.end() - oldest < kMostMatches) {
+    names += std::prev(oldest)->names.size();
+    if (names > state_->options.max_bodies) break;
+    --oldest;
+  }
+  kept.erase(kept.begin(), oldest);
 }
 
 const std::vector<PairRule>& Scene::rules() const { return state_->options.allowed_pairs; }

@@ -74,6 +74,7 @@ struct Scene::State {
   bool rules_changed = true;                           // whether rules changed since the last commit
   bool sizes_changed = false;                          // whether `sizes` are those of another margin
   std::optional<PreparedRules> prepared;               // has the same rules as options.allowed_pairs
+  std::vector<NameMatches> name_matches;               // see Scene::prepareNames(); the oldest come first
   std::uint64_t sequence = 0, epoch = 0, commits = 0;
 
   std::vector<std::uint32_t> checkedSlots(const std::vector<BodyId>& out);

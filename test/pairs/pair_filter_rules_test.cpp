@@ -287,5 +287,77 @@ TEST(PairRules, ForOtherBodiesTheRulesDecideAsInANewFilter) {
   EXPECT_GT(decided_by_rule, 1000u);
 }
 
+/// Returns the numbers with which a filter describes its bodies: kinds, groups and all bits of the globs.
+std::vector<std::uint64_t> keysOf(const PairFilter& filter, std::uint32_t bodies) {
+  std::vector<std::uint64_t> keys;
+  for (std::uint32_t body = 0; body < bodies; ++body) filter.appendKey(body, keys);
+  return keys;
+}
+
+/// Returns random names of `bodies` in random order, some of them twice, and names of other bodies.
+std::vector<std::string> someNames(const std::vector<Body>& bodies, Random& random) {
+  std::vector<std::string> names{"obstacle/ghost", "leg/ghost"};
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    names.push_back(bodies[std::size_t(random.below(int(bodies.size())))].name);
+  return names;
+}
+
+/// Claim: names that were matched before make the same filter as names that are matched by forBodies(). Matches of
+/// other globs are ignored, also if only the globs differ or if a rule was removed.
+TEST(PairRules, NamesThatWereMatchedBeforeMakeTheSameFilter) {
+  std::size_t same_globs = 0, other_globs = 0, removed = 0, decided_by_rule = 0;
+  for (unsigned seed = 1; seed <= 600; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    std::vector<Body> bodies = cell();
+    for (Body& body : test::armBodies("leg")) bodies.push_back(body);
+    const auto count = static_cast<std::uint32_t>(bodies.size());
+    const std::vector<Body> first{bodies[0]};
+    const PairFilter before(first, {}, randomRules(random));
+    std::vector<NameMatches> matches;
+    for (int i = random.between(1, 3); i > 0; --i) matches.push_back(before.match(someNames(bodies, random)));
+    PairFilter filter = before;
+    if (random.chance(0.3)) {
+      filter = PairFilter(first, {}, randomRules(random));
+      if (random.chance(0.5)) matches.push_back(filter.match(someNames(bodies, random)));
+    } else if (!before.rules().empty() && random.chance(0.3)) {
+      std::vector<bool> gone(before.rules().size());
+      gone[std::size_t(random.below(int(gone.size())))] = true;
+      filter = before.without(gone);
+      if (random.chance(0.5)) matches.push_back(filter.match(someNames(bodies, random)));
+      ++removed;
+    }
+    for (const NameMatches& one : matches) (one.globs == filter.match({}).globs ? same_globs : other_globs)++;
+    std::vector<std::uint32_t> known(count, PairFilter::kUnknown);
+    if (random.chance(0.5)) known[0] = 0;
+    const PairFilter with = filter.forBodies(bodies, known, matches), without = filter.forBodies(bodies, known);
+    ASSERT_EQ(keysOf(with, count), keysOf(without, count));
+    decided_by_rule += expectAlike(with, without, count);
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(same_globs, 300u);
+  EXPECT_GT(other_globs, 100u);
+  EXPECT_GT(removed, 50u);
+  EXPECT_GT(decided_by_rule, 1000u);
+}
+
+/// Claim: the bits of matched names are used. A wrong bit shows that the name was not matched again.
+TEST(PairRules, NamesThatWereMatchedBeforeAreNotMatchedAgain) {
+  const std::vector<Body> bodies = cell();
+  const PairFilter filter({}, {}, {allow("arm/*", "obstacle/*", "")});
+  NameMatches matches = filter.match({"obstacle/crate", "obstacle/box", "obstacle/crate"});
+  EXPECT_EQ(matches.names, (std::vector<std::string>{"obstacle/box", "obstacle/crate"}));
+  EXPECT_EQ(matches.globs, (NameMatches::Globs{{"arm/*", "obstacle/*"}}));
+  EXPECT_EQ(matches.as_first, (std::vector<std::uint64_t>{0, 0}));
+  EXPECT_EQ(matches.as_second, (std::vector<std::uint64_t>{1, 1}));
+  matches.as_second[0] = 0;
+  const std::vector<std::uint32_t> unknown(bodies.size(), PairFilter::kUnknown);
+  const PairFilter next = filter.forBodies(bodies, unknown, {matches});
+  EXPECT_FALSE(next.allowed(hand, box));
+  EXPECT_TRUE(next.allowed(hand, crate));
+  matches.globs[0].second = "obstacle/c*";
+  EXPECT_TRUE(filter.forBodies(bodies, unknown, {matches}).allowed(hand, box)) << "the globs differ";
+}
+
 }  // namespace
 }  // namespace hgrid

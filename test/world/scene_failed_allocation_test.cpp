@@ -290,6 +290,26 @@ TEST(SceneFailedAllocation, AfterABodyMovedAndLeftIsHarmless) {
   EXPECT_GT(failures, 20u);
 }
 
+/// Claim: a commit that fails keeps the prepared names for the next one. Wrong bits show whether it uses them.
+TEST(SceneFailedAllocation, KeepsPreparedNames) {
+  SceneOptions options;
+  options.allowed_pairs = {test::allow("obstacle/*", "obstacle/*")};
+  std::size_t failures = 0;
+  bool failed = true;
+  for (std::size_t k = 1; failed; ++k) {
+    Scene scene(options);
+    test::put(scene, test::ball("box"), test::at(0));
+    NameMatches wrong = scene.commit(Time{1}, {})->structure().filter.match({"obstacle/late"});
+    wrong.as_first[0] = wrong.as_second[0] = 0;
+    scene.prepareNames(wrong);
+    test::put(scene, test::ball("late"), test::at(0));
+    failed = test::failsAt(k, test::Failing::one, [&] { scene.commit(Time{2}, {}); });
+    EXPECT_EQ(scene.commit(Time{3}, {})->pairs().size(), 1u) << "allocation " << k;
+    failures += failed ? 1 : 0;
+  }
+  EXPECT_GT(failures, 20u);
+}
+
 /// Uses a new thread for each query, because the buffers of a new thread are empty.
 TEST(SceneFailedAllocation, OfAQueryChangesNoLaterAnswer) {
   Script script = Writer(11).written(2);

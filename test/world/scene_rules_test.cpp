@@ -102,6 +102,88 @@ TEST_F(SceneRules, ThatAreRemovedDecideNoLonger) {
   }
 }
 
+/// Returns the result of PairFilter::match() of the filter of a snapshot.
+NameMatches matched(const Snapshot& snapshot, std::vector<std::string> names) {
+  return snapshot.structure().filter.match(std::move(names));
+}
+
+TEST_F(SceneRules, AllowTheSamePairsIfNamesWerePrepared) {
+  const PairRule grip = allow("obstacle/l*", "arm/h*"), rigid = enable("arm/s*", "arm/base"), box = allow("*", "*/box");
+  const std::vector<PairRule> other{allow("obstacle/m*", "arm/h*"), rigid, box};
+  enum class Change { none, set, set_prepared, removed };
+  for (const Change change : {Change::none, Change::set, Change::set_prepared, Change::removed}) {
+    for (const bool added_first : {false, true}) {  // whether the bodies were added before the rules changed
+      NamePairs pairs[2];
+      for (const bool prepares : {false, true}) {
+        scene_.setRules({grip, rigid, box});
+        const NameMatches matches = matched(now(), {"obstacle/late", "obstacle/more", "obstacle/never"});
+        if (prepares) scene_.prepareNames(matches);
+        std::vector<BodyId> ids;
+        const auto add = [&] {
+          for (const char* name : {"late", "more"}) ids.push_back(test::put(scene_, test::ball(name), test::at(0)));
+        };
+        if (added_first) add();
+        if (change == Change::set) scene_.setRules(other);
+        if (change == Change::set_prepared) {
+          const Structure& structure = snapshot_->structure();
+          scene_.setPreparedRules({PairFilter(structure.bodies, {}, other), structure.revision});
+        }
+        if (change == Change::removed) scene_.removeRules({true, false, false});
+        if (!added_first) add();
+        pairs[prepares] = test::namedPairs(now());
+        for (const BodyId id : ids) scene_.remove(id);
+      }
+      EXPECT_EQ(pairs[0], pairs[1]);
+      EXPECT_EQ(pairs[1].count({"arm/hand", "obstacle/late"}), change == Change::none ? 0u : 1u);
+      const bool sets_other = change == Change::set || change == Change::set_prepared;
+      EXPECT_EQ(pairs[1].count({"arm/hand", "obstacle/more"}), sets_other ? 0u : 1u);
+    }
+  }
+}
+
+/// Claim: the next commit with a new structure uses the prepared names, a later one does not. Wrong bits show it.
+TEST_F(SceneRules, UsePreparedNamesOnce) {
+  scene_.setRules({allow("arm/*", "obstacle/*")});
+  NameMatches matches = matched(now(), {"obstacle/late"});
+  ASSERT_EQ(matches.as_second.size(), 1u);
+  matches.as_second[0] = 0;
+  scene_.prepareNames(matches);
+  now();  // no new structure
+  const std::pair<std::string, std::string> late{"arm/hand", "obstacle/late"};
+  BodyId id = test::put(scene_, test::ball("late"), test::at(0));
+  EXPECT_EQ(test::namedPairs(now()).count(late), 1u);
+  scene_.remove(id);
+  now();
+  id = test::put(scene_, test::ball("late"), test::at(0));
+  EXPECT_EQ(test::namedPairs(now()).count(late), 0u);
+}
+
+/// Claim: the scene keeps matches of at most SceneOptions::max_bodies names, and of at most 64 calls. The oldest go.
+TEST(ScenePreparedNames, AreLimited) {
+  SceneOptions options;
+  options.max_bodies = 100;
+  options.allowed_pairs = {allow("obstacle/*", "obstacle/*")};
+  struct Row {
+    std::size_t calls, names;  // the number of later calls, and how many names each of them has
+    bool keeps;                // whether the matches of the first call are kept
+  };
+  for (const Row& row :
+       {Row{63, 1, true}, Row{64, 1, false}, Row{1, 99, true}, Row{1, 100, false}, Row{2, 50, false}}) {
+    SCOPED_TRACE(std::to_string(row.calls) + " calls");
+    Scene scene(options);
+    test::put(scene, test::ball("box"), test::at(0));
+    const auto snapshot = scene.commit(Time{1}, {});
+    NameMatches wrong = matched(*snapshot, {"obstacle/late"});
+    wrong.as_first[0] = wrong.as_second[0] = 0;  // shows whether the scene keeps it
+    scene.prepareNames(wrong);
+    std::vector<std::string> others;
+    for (std::size_t i = 0; i < row.names; ++i) others.push_back("obstacle/other" + std::to_string(i));
+    for (std::size_t i = 0; i < row.calls; ++i) scene.prepareNames(matched(*snapshot, others));
+    test::put(scene, test::ball("late"), test::at(0));
+    EXPECT_EQ(scene.commit(Time{2}, {})->pairs().size(), row.keeps ? 1u : 0u);
+  }
+}
+
 TEST_F(SceneRules, ThatSwitchOffEveryPairAreNoted) {
   EXPECT_FALSE(now().structure().silenced);
   scene_.setRules({allow("arm/*", "*")});

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hgrid_proximity/bodies/body_list.h"
+#include "hgrid_proximity/pairs/name_matches.h"
 #include "hgrid_proximity/pairs/pair_rule.h"
 
 namespace hgrid {
@@ -55,7 +56,13 @@ class PairFilter {
   /// filter knows most of the bodies, because it matches globs only with the names of the others.
   /// @param bodies  the bodies that the indices in the other functions of the returned filter refer to; not kept
   /// @param known   for each of them: its index in this filter, or kUnknown. The body must be the same in both.
-  PairFilter forBodies(const BodyList& bodies, const std::vector<std::uint32_t>& known) const;
+  /// @param matches  results of match() for names of the others, which save the time to match these names. They never
+  ///                 change the result: those of a filter with other globs are ignored.
+  PairFilter forBodies(const BodyList& bodies, const std::vector<std::uint32_t>& known,
+                       const std::vector<NameMatches>& matches = {}) const;
+  /// Matches names with the globs of the rules. Takes long if there are many names and many rules. Several threads may
+  /// call this at a time. @param names  in any order; a name may occur several times
+  NameMatches match(std::vector<std::string> names) const;
 
   /// Returns whether the pair of the two bodies is switched off, which means that it is not reported. Symmetric.
   bool allowed(std::uint32_t first, std::uint32_t second) const {
@@ -125,6 +132,10 @@ class PairFilter {
   void fillNamed(const NameIndex& names);
   void matchGlobs(const NameIndex& names);
   void copySets(const PairFilter& from, const std::vector<std::uint32_t>& known);
+  NameMatches::Globs globs() const;
+  bool copyMatch(const NameMatches& from, const std::string& name, std::uint32_t body);
+  std::vector<std::uint32_t> copyMatches(const std::vector<NameMatches>& matches, const BodyList& bodies,
+                                         const std::vector<std::uint32_t>& known);
   std::uint32_t ruleOf(std::uint32_t first, std::uint32_t second) const;
   std::vector<std::uint32_t> representatives() const;
 

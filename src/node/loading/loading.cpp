@@ -20,7 +20,7 @@ Loading::Loading(ros::NodeHandle node, const ros::NodeHandle& private_node, Comm
       self_shapes_(commons.settings.params, transforms, newest_),
       robot_source_(private_node, commons.settings.params, commons.narrow_phase, is_ending_),
       map_source_(commons.settings.params, self_shapes_, commons.narrow_phase, commons.ledger),
-      robots_(robot_source_, commons.settings.params, robots, jobs, commons.health),
+      robots_(robot_source_, commons.settings.params, robots, newest_, jobs, commons.health),
       maps_(node_, commons.settings.params, map_source_, stored_maps, jobs, commons.ledger) {}
 
 void Loading::startClouds() {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "node/diagnostics/ledger.h"
 #include "node/loading/missing_note.h"
@@ -24,11 +25,26 @@ void logLoaded(const std::string& robot, const SelfPairs& self_pairs) {
   }
 }
 
+/// Returns the names of the bodies of robots.
+std::vector<std::string> namesOfBodies(const std::vector<std::shared_ptr<const LoadedRobot>>& robots) {
+  std::vector<std::string> names;
+  for (const auto& robot : robots) {
+    for (const Body& body : robot->bodies) names.push_back(body.name);
+  }
+  return names;
+}
+
 }  // namespace
 
-RobotLoader::RobotLoader(const RobotSource& source, const Params& params, const RobotModels& robots, TickJobs& jobs,
-                         NodeHealth& health)
-    : source_(source), params_(params), jobs_(jobs), health_(health), robots_(robots), watch_(source, params) {
+RobotLoader::RobotLoader(const RobotSource& source, const Params& params, const RobotModels& robots, NewestTick newest,
+                         TickJobs& jobs, NodeHealth& health)
+    : source_(source),
+      params_(params),
+      newest_(std::move(newest)),
+      jobs_(jobs),
+      health_(health),
+      robots_(robots),
+      watch_(source, params) {
   for (const RobotParams& robot : params_.robots) {  // the first one first, because its root may be the world frame
     const RobotEntry* entry = robots.entry(robot.name);
     if (entry != nullptr) missing_.put(robot.name, entry->spec);
@@ -86,7 +102,9 @@ Refusal RobotLoader::load(const Robot& robot, SharedReader& reader) {
     const auto loaded = std::make_shared<LoadedRobot>(reader.load(*robot, description));
     const SelfPairs self_pairs = loaded->self_pairs;
     const auto after = std::make_shared<std::optional<RobotModels>>();
-    jobs_.run([loaded, after](World& world) {
+    const auto matches = matchNames(namesOfBodies({loaded}), newest_());
+    jobs_.run([loaded, matches, after](World& world) {
+      if (matches) world.prepareNames(std::move(*matches));
       world.setRobot(std::move(*loaded));
       after->emplace(world.robots());
     });
@@ -113,6 +131,18 @@ PreparedRobots RobotLoader::prepare(const std::vector<RobotRequest>& requests) c
   return hgrid::prepare(requests, robots_.all(), source_, params_);
 }
 
+/// Returns what the rules match of the robots that a request brings into the world; null: see matchNames().
+std::shared_ptr<NameMatches> RobotLoader::matchesOf(const PreparedRobots& prepared) const {
+  std::vector<std::shared_ptr<const LoadedRobot>> coming;
+  for (const RobotChange& change : prepared.changes) {
+    const bool is_known = change.operation == RobotOperation::declare_present && !change.model;
+    const RobotEntry* known = is_known ? robots_.entry(change.name) : nullptr;
+    if (change.model) coming.push_back(change.model);
+    if (known != nullptr && known->model) coming.push_back(known->model);
+  }
+  return matchNames(namesOfBodies(coming), newest_());
+}
+
 std::shared_ptr<const Tick> RobotLoader::change(const ChangeWorld& change_world, const std::function<void(World&)>& act,
                                                 const PreparedRobots* prepared) {
   const auto after = std::make_shared<std::optional<RobotModels>>();
@@ -125,7 +155,9 @@ std::shared_ptr<const Tick> RobotLoader::change(const ChangeWorld& change_world,
   };
   std::shared_ptr<const Tick> tick;
   try {
-    tick = change_world([act, after](World& world) {
+    const auto matches = prepared == nullptr ? nullptr : matchesOf(*prepared);
+    tick = change_world([act, matches, after](World& world) {
+      if (matches) world.prepareNames(std::move(*matches));
       act(world);
       after->emplace(world.robots());
     });

@@ -15,6 +15,7 @@
 #include "node/params/params.h"
 #include "node/sources/robot_source.h"
 #include "node/tick/change_world.h"
+#include "node/tick/match_names.h"
 #include "node/tick/tick_jobs.h"
 #include "node/world/robot_models.h"
 
@@ -24,9 +25,11 @@ namespace hgrid {
 /// tick thread must not use it.
 class RobotLoader {
  public:
-  /// All parameters except `robots` must outlive this object. @param robots  the robots of the world
-  RobotLoader(const RobotSource& source, const Params& params, const RobotModels& robots, TickJobs& jobs,
-              NodeHealth& health);
+  using NewestTick = std::function<std::shared_ptr<const Tick>()>;
+
+  /// `source`, `params`, `jobs` and `health` must outlive this object. @param robots  the robots of the world
+  RobotLoader(const RobotSource& source, const Params& params, const RobotModels& robots, NewestTick newest,
+              TickJobs& jobs, NodeHealth& health);
 
   /// Returns the robots of the world after the last change that this object made.
   const RobotModels& robots() const { return robots_; }
@@ -58,11 +61,13 @@ class RobotLoader {
 
   Refusal loadAgain(const Robot& robot, SharedReader& reader);
   Refusal load(const Robot& robot, SharedReader& reader);
+  std::shared_ptr<NameMatches> matchesOf(const PreparedRobots& prepared) const;
   void noteFailed(const RobotSpec& robot, const Refusal& why);
   void adopt(const RobotModels& robots);
 
   const RobotSource& source_;
   const Params& params_;
+  const NewestTick newest_;
   TickJobs& jobs_;
   NodeHealth& health_;
   RobotModels robots_;  // as after the last change that this object made

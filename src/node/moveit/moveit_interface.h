@@ -30,14 +30,16 @@ class MoveItInterface {
         commons_(commons),
         octomap_(maps, jobs, commons.ledger),
         jobs_(jobs),
+        newest_(std::move(newest)),
         is_ending_(std::move(is_ending)) {
     if (!commons.settings.params.moveit_services) return;
-    services_.emplace(node_, commons, octomap_, gaps_, change_world);
-    validity_.emplace(query_node, commons, std::move(newest), transforms);
+    services_.emplace(node_, commons, octomap_, gaps_, newest_, change_world);
+    validity_.emplace(query_node, commons, newest_, transforms);
   }
 
   void startTopics() {
-    if (commons_.settings.params.moveit_topics) topics_.emplace(node_, commons_, octomap_, gaps_, jobs_, is_ending_);
+    if (!commons_.settings.params.moveit_topics) return;
+    topics_.emplace(node_, commons_, octomap_, gaps_, newest_, jobs_, is_ending_);
   }
   void stopTopics() { topics_.reset(); }
 
@@ -47,6 +49,7 @@ class MoveItInterface {
   SceneOctomap octomap_;
   SceneGaps gaps_;  // only jobs use it
   TickJobs& jobs_;
+  ServiceEnvelope::NewestTick newest_;
   std::function<bool()> is_ending_;
   std::optional<SceneTopics> topics_;
   std::optional<SceneServices> services_;

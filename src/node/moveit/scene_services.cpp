@@ -14,17 +14,19 @@
 #include "node/moveit/scene_message.h"
 #include "node/moveit/scene_reply.h"
 #include "node/services/guarded.h"
+#include "node/tick/match_names.h"
 #include "node/wire/checked.h"
 #include "node/world/world.h"
 
 namespace hgrid {
 
 SceneServices::SceneServices(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps,
-                             ChangeWorld change_world)
+                             ServiceEnvelope::NewestTick newest, ChangeWorld change_world)
     : commons_(commons),
       reader_(commons.settings.params, *commons.narrow_phase),
       octomap_(octomap),
       gaps_(gaps),
+      newest_(std::move(newest)),
       change_world_(std::move(change_world)) {
   serve<moveit::GetPlanningScene>(node, "get_planning_scene", "moveit.get_failed", &SceneServices::get);
   serve<moveit::ApplyPlanningScene>(node, "apply_planning_scene", "moveit.apply_failed", &SceneServices::apply);
@@ -64,7 +66,9 @@ void SceneServices::apply(const moveit::ApplyPlanningScene::Request& request,
     if (!request.scene.octomap.data.empty()) {
       map = std::make_shared<const LoadedMap>(octomap_.read(request.scene.octomap));
     }
-    change_world_([read, map, &gaps = gaps_](World& world) {
+    const auto matches = matchNames(addedNames(read->changes()), newest_());
+    change_world_([read, map, matches, &gaps = gaps_](World& world) {
+      if (matches) world.prepareNames(std::move(*matches));
       read->applyTo(world, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())));
       if (!read->applied()) throw *read->refused();
       read->noteIn(gaps);

@@ -12,6 +12,7 @@
 #include "node/moveit/scene_gaps.h"
 #include "node/moveit/scene_octomap.h"
 #include "node/moveit/scene_types.h"
+#include "node/services/envelope/service_envelope.h"
 #include "node/tick/change_world.h"
 
 namespace hgrid {
@@ -22,7 +23,7 @@ class SceneServices {
   /// @param node  the names of the services are resolved in its namespace; the thread of its callback queue serves them
   /// All other parameters must outlive this object.
   SceneServices(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps,
-                ChangeWorld change_world);
+                ServiceEnvelope::NewestTick newest, ChangeWorld change_world);
 
  private:
   template <class Service>
@@ -35,6 +36,7 @@ class SceneServices {
   SceneReader reader_;
   SceneOctomap& octomap_;
   SceneGaps& gaps_;  // only jobs use it
+  ServiceEnvelope::NewestTick newest_;
   ChangeWorld change_world_;
   std::vector<ros::ServiceServer> servers_;
 };

@@ -9,8 +9,10 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "node/services/guarded.h"
+#include "node/tick/match_names.h"
 #include "node/world/world.h"
 
 namespace hgrid {
@@ -20,11 +22,22 @@ constexpr std::chrono::milliseconds kTickShare{5};                  // time of o
 constexpr std::size_t kBatchMessages = 256, kBatchBytes = 1 << 20;  // read before a tick applies them
 constexpr std::chrono::milliseconds kRetryPause{100};  // before a message is applied again to a world that is not ready
 
+/// Returns the full names of the obstacles that the messages from this one on may add.
+std::vector<std::string> namesAddedFrom(std::size_t first, const std::vector<std::shared_ptr<ReadScene>>& batch) {
+  std::vector<std::string> names;
+  for (std::size_t i = first; i < batch.size(); ++i) {
+    const std::vector<std::string> more = addedNames(batch[i]->changes());
+    names.insert(names.end(), more.begin(), more.end());
+  }
+  return names;
+}
+
 }  // namespace
 
-SceneTopics::SceneTopics(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps, TickJobs& jobs,
-                         std::function<bool()> is_ending)
+SceneTopics::SceneTopics(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps,
+                         ServiceEnvelope::NewestTick newest, TickJobs& jobs, std::function<bool()> is_ending)
     : commons_(commons),
+      newest_(std::move(newest)),
       jobs_(jobs),
       is_ending_(std::move(is_ending)),
       reader_(commons.settings.params, *commons.narrow_phase),
@@ -132,8 +145,12 @@ void SceneTopics::apply(const SceneBatch& batch) {
   std::size_t settled = 0;
   while (settled < batch.size() && !is_ending_()) {
     const auto done = std::make_shared<std::size_t>(settled);  // shared: run() may end before the job does
+    const auto matches = matchNames(namesAddedFrom(settled, batch), newest_());
     try {
-      jobs_.run([shared, done, &gaps = gaps_](World& world) { applySome(*shared, *done, gaps, world); });
+      jobs_.run([shared, done, matches, &gaps = gaps_](World& world) {
+        if (matches) world.prepareNames(std::move(*matches));
+        applySome(*shared, *done, gaps, world);
+      });
     } catch (const Refusal& refusal) {
       if (refusal.code() != Code::busy) throw;  // busy: no tick began in time, so nothing was applied
     }

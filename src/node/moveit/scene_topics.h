@@ -19,6 +19,7 @@
 #include "node/moveit/scene_message.h"
 #include "node/moveit/scene_octomap.h"
 #include "node/moveit/scene_queue.h"
+#include "node/services/envelope/service_envelope.h"
 #include "node/tick/tick_jobs.h"
 
 namespace hgrid {
@@ -36,8 +37,8 @@ class SceneTopics {
   /// @param node       the names of the topics are resolved in its namespace
   /// @param is_ending  returns whether the node is shutting down
   /// All other parameters must outlive this object.
-  SceneTopics(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps, TickJobs& jobs,
-              std::function<bool()> is_ending);
+  SceneTopics(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps,
+              ServiceEnvelope::NewestTick newest, TickJobs& jobs, std::function<bool()> is_ending);
   ~SceneTopics();
   SceneTopics(const SceneTopics&) = delete;
   SceneTopics& operator=(const SceneTopics&) = delete;
@@ -54,6 +55,7 @@ class SceneTopics {
   void settle(const ReadScene& read);
 
   Commons& commons_;
+  const ServiceEnvelope::NewestTick newest_;
   TickJobs& jobs_;
   const std::function<bool()> is_ending_;
   SceneReader reader_;

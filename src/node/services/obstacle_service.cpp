@@ -12,6 +12,7 @@
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/pairs/pair_rule.h"
 #include "node/messages/obstacle_messages.h"
+#include "node/tick/match_names.h"
 #include "node/world/world.h"
 
 namespace hgrid {
@@ -68,7 +69,9 @@ void ObstacleService::apply(ServiceCall<msg::ApplyObstacles>& call) const {
         call.request, call.caller, params_, *narrow_phase_,
         [&](const std::string& uri, const Eigen::Vector3d& scale) { return files.load(uri, scale); }));
     checkTouch(*changes, call.tick, params_);
-    call.tick = AnswerTick(change_world_([changes](World& world) {
+    const auto matches = matchNames(addedNames(*changes), call.tick.get());
+    call.tick = AnswerTick(change_world_([changes, matches](World& world) {
+      if (matches) world.prepareNames(std::move(*matches));
       world.applyObstacles(*changes, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())));
     }));
     call.response.durable = wait_until_stored_();

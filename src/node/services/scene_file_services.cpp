@@ -14,6 +14,7 @@
 #include "hgrid_proximity/pairs/rule_book.h"
 #include "node/sources/configured_obstacle.h"
 #include "node/state/scene_file.h"
+#include "node/tick/match_names.h"
 #include "node/world/world.h"
 
 namespace hgrid {
@@ -24,6 +25,7 @@ struct PreparedScene {
   std::vector<ObstacleChange> changes;
   std::set<std::string> names;  ///< full names of its obstacles
   PreparedRules rules;
+  std::shared_ptr<NameMatches> matches;  ///< of the names and the rules, see matchNames()
 };
 
 /// Checks that each name or glob is that of a body of the world or of an obstacle of the scene. @throws Refusal
@@ -98,10 +100,10 @@ void SceneFileServices::load(ServiceCall<msg::LoadScene>& call) const {
   const std::vector<PairRule> rules =
       rulesAfter(structure.filter.rules(), scene.rules, call.request.replace, call.caller, params_);
   checkNames(scene.rules, names, structure.bodies);  // takes long for many rules, so their number was checked before
+  PreparedRules next_rules{PairFilter(structure.bodies, params_.pair_kinds, rules), structure.revision};
+  const auto matches = matchNames({names.begin(), names.end()}, next_rules.filter);
   const auto prepared = std::make_shared<const PreparedScene>(
-      PreparedScene{std::move(changes),
-                    std::move(names),
-                    {PairFilter(structure.bodies, params_.pair_kinds, rules), structure.revision}});
+      PreparedScene{std::move(changes), std::move(names), std::move(next_rules), matches});
   call.tick = AnswerTick(change_world_([prepared, replace = call.request.replace](World& world) {
     ObstacleChanges all;
     all.without_groups = true;  // the file says where each obstacle of a group is
@@ -116,6 +118,7 @@ void SceneFileServices::load(ServiceCall<msg::LoadScene>& call) const {
     }
     all.changes.insert(all.changes.end(), prepared->changes.begin(), prepared->changes.end());
     PreparedRules next = prepared->rules;  // copied first, because nothing may fail after the obstacles were changed
+    if (prepared->matches) world.prepareNames(std::move(*prepared->matches));
     world.applyObstacles(all, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())));
     world.setRules(std::move(next));
   }));

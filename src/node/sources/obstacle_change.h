@@ -88,6 +88,15 @@ struct ObstacleChanges {
   bool without_groups = false;
 };
 
+/// Returns the full names of the obstacles that the changes may add.
+inline std::vector<std::string> addedNames(const ObstacleChanges& changes) {
+  std::vector<std::string> names;
+  for (const ObstacleChange& change : changes.changes) {
+    if (change.added) names.push_back(change.name);
+  }
+  return names;
+}
+
 /// A refusal of one of several changes.
 class ChangeRefusal : public Refusal {
  public:
