@@ -137,8 +137,8 @@ class Scene {
   void setPreparedRules(PreparedRules prepared);
   /// Removes rules, from the next commit on. @param gone  for each rule in rules(): whether it is removed
   void removeRules(const std::vector<bool>& gone);
-  /// Names of bodies that will be added, already matched with the rules. The next commit with a new structure uses
-  /// them, unless the rules have changed since. They save time and change no result. If more than
+  /// Takes names of bodies that will be added, already matched with the rules. The next commit with a new structure
+  /// uses them, unless the rules have changed since. They save time and change no result. If more than
   /// SceneOptions::max_bodies names or the matches of 64 calls wait for a commit, the oldest are dropped.
   /// @param matches  made by PairFilter::match(), which any thread may call, of the filter of the newest snapshot
   void prepareNames(NameMatches matches);
