@@ -8,7 +8,7 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kMostPlaces = std::size_t{1} << 20;  // a map with more blocks in its bounds has none
+constexpr std::size_t kMostPlaces = std::size_t{1} << 20;  // a map that needs more blocks gets none
 constexpr std::uint16_t kMostSquared = 169;                // (2 * kFarthest)^2
 constexpr float kBoundRounding = 2e-6f;  // relative, and in finest edges: more than the rounding errors of a bound
 
@@ -27,8 +27,8 @@ struct DistanceBlocks::Block {
 
 namespace {
 
-/// Squared distances in a box of cells around a block. Each pass finds the least sum of a value along an axis and the
-/// squared gap to it, and needs kEdge + 2 * kMargin values for kEdge results.
+/// Squared distances in a box of cells around a block. For each cell, a pass finds the minimum of value + squared gap
+/// along one axis. kEdge results need kEdge + 2 * kMargin values.
 template <std::int32_t kEdge, std::int32_t kMargin>
 struct Window {
   static constexpr std::int32_t kAll = kEdge + 2 * kMargin;
@@ -130,7 +130,24 @@ bool DistanceBlocks::fill(const std::array<std::int32_t, 3>& first, Block& block
   return true;
 }
 
-/// Makes a block, unless another thread has made it. @returns null if there is no memory left for it
+/// Returns the number of blocks in the box around the voxels.
+std::size_t DistanceBlocks::places() const {
+  std::size_t places = 1;
+  for (const std::int32_t count : block_counts_) places *= static_cast<std::size_t>(count);
+  return places;
+}
+
+/// Returns the blocks, and allocates the array if it is missing.
+std::atomic<const DistanceBlocks::Block*>* DistanceBlocks::table() const {
+  std::atomic<const Block*>* known = table_.load(std::memory_order_acquire);
+  if (known != nullptr) return known;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!blocks_) blocks_.reset(new std::atomic<const Block*>[places()]());
+  table_.store(blocks_.get(), std::memory_order_release);
+  return blocks_.get();
+}
+
+/// Returns a block, and computes it if it is missing. @returns null if kMostBlocks blocks are kept
 const DistanceBlocks::Block* DistanceBlocks::made(std::size_t number) const {
   static const Block kFar = [] {
     Block block{};
@@ -139,7 +156,7 @@ const DistanceBlocks::Block* DistanceBlocks::made(std::size_t number) const {
   }();
   const std::lock_guard<std::mutex> lock(mutex_);
   const Block* known = blocks_[number].load(std::memory_order_relaxed);
-  if (known != nullptr || made_.size() == kMostBlocks) return known;
+  if (known != nullptr || full_) return known;
   std::array<std::int32_t, 3> first;
   std::size_t rest = number;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -151,6 +168,7 @@ const DistanceBlocks::Block* DistanceBlocks::made(std::size_t number) const {
   if (fill(first, *block)) {
     made_.push_back(std::move(block));
     known = made_.back().get();
+    full_ = made_.size() == kMostBlocks;
   } else {
     known = &kFar;
   }
@@ -160,11 +178,7 @@ const DistanceBlocks::Block* DistanceBlocks::made(std::size_t number) const {
 
 Four DistanceBlocks::lowerBounds(const Four (&points)[3]) const {
   if (block_counts_[0] == 0) return allFour(isKnown() ? kFarthest : 0.0f);
-  std::call_once(allocated_, [&] {
-    std::size_t places = 1;
-    for (const std::int32_t count : block_counts_) places *= static_cast<std::size_t>(count);
-    blocks_.reset(new std::atomic<const Block*>[places]());
-  });
+  std::atomic<const Block*>* const blocks = table();
   using FourInts = std::int32_t __attribute__((vector_size(16)));
   FourInts cells[3];
   Four outside = allFour(0.0f), off_center = allFour(0.0f);
@@ -182,14 +196,14 @@ Four DistanceBlocks::lowerBounds(const Four (&points)[3]) const {
     const std::int32_t x = cells[0][lane], y = cells[1][lane], z = cells[2][lane];
     const auto number =
         static_cast<std::size_t>(((z / kEdge) * block_counts_[1] + y / kEdge) * block_counts_[0] + x / kEdge);
-    const Block* block = blocks_[number].load(std::memory_order_acquire);
-    if (block == nullptr) block = made(number);
+    const Block* block = blocks[number].load(std::memory_order_acquire);
+    if (block == nullptr && !full_.load(std::memory_order_relaxed)) block = made(number);
     const auto cell = static_cast<std::size_t>((z % kEdge * kEdge + y % kEdge) * kEdge + x % kEdge);
     squared[lane] = block == nullptr ? 0.0f : static_cast<float>(block->squared[cell]);
   }
   const Four inside = greatest(squareRoot(squared) * 0.5f - squareRoot(off_center), allFour(0.0f));
-  // The voxels are within the blocks. So for a point outside, the way into the blocks and the way from there to a voxel
-  // form an angle of at least 90 degrees.
+  // The voxels are within the blocks. So for a point outside, the segment to the nearest point of the blocks and the
+  // segment from there to a voxel form an angle of at least 90 degrees.
   return squareRoot(outside + inside * inside) * (1.0f - kBoundRounding) - kBoundRounding;
 }
 

@@ -16,13 +16,13 @@ constexpr double kRounding = 1e-14;
 }  // namespace
 
 std::shared_ptr<const MapCells> makeMapCells(std::shared_ptr<const StaticGrid> grid, const NarrowPhase& narrow_phase,
-                                             std::shared_ptr<const UnmappedSpace> unmapped) {
+                                             std::shared_ptr<const UnmappedSpace> unmapped, bool lasting) {
   auto cells = std::make_shared<MapCells>();
   for (std::size_t level = 0; level < cells->cubes.size(); ++level) {
     const double edge = std::ldexp(grid->finestEdge(), static_cast<int>(level));
     cells->cubes[level] = narrow_phase.block(Eigen::Vector3d::Constant(edge));
   }
-  cells->distances = std::make_shared<const DistanceBlocks>(*grid);
+  if (lasting) cells->distances = std::make_shared<const DistanceBlocks>(*grid);
   cells->grid = std::move(grid);
   cells->unmapped = std::move(unmapped);
   return cells;

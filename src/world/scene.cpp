@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <set>
+#include <string_view>
+#include <unordered_set>
 #include <utility>
 
 #include "hgrid_proximity/bodies/name.h"
@@ -18,7 +19,7 @@ namespace {
 constexpr double kLargestMargin = 1e3;  // [m] also the largest padding, hysteresis, growth cap and finest edge
 // [m] Largest coordinate of a shape in the frame of its body, and of a body in the world frame.
 constexpr double kFarthestShape = 1e6;
-constexpr std::ptrdiff_t kMostMatches = 64;  // largest length of State::name_matches, of which each has all globs
+constexpr std::ptrdiff_t kMostMatches = 64;  // most elements of State::name_matches; each has a copy of all globs
 
 void checkLength(double value, double limit, const std::string& what) {
   if (!(value >= 0.0 && value <= limit)) {
@@ -146,7 +147,8 @@ std::vector<std::uint32_t> Scene::State::checkedSlots(const std::vector<BodyId>&
 void Scene::State::checkIn(const std::vector<std::uint32_t>& leaving, const std::vector<Body>& in) const {
   std::size_t count = slot_of_name.size() - leaving.size(), planes = plane_count;
   for (const std::uint32_t slot : leaving) planes -= planesOf(*bodies[slot]);
-  std::set<std::string> names;
+  std::unordered_set<std::string_view> names;
+  names.reserve(in.size());
   for (const Body& body : in) {
     checkBody(body);
     const auto known = slot_of_name.find(body.name);
@@ -239,7 +241,9 @@ std::vector<BodyId> Scene::exchange(const std::vector<BodyId>& out, std::vector<
   leaving.erase(std::remove_if(leaving.begin(), leaving.end(), stays), leaving.end());
   const std::vector<std::uint32_t> numbers = s.slotsFor(leaving, entering.size());
   std::map<std::string, std::uint32_t> names;
-  for (std::size_t i = 0; i < entering.size(); ++i) names.emplace(in[entering[i]].name, numbers[i]);
+  for (std::size_t i = 0; i < entering.size(); ++i) {
+    names.emplace_hint(names.end(), in[entering[i]].name, numbers[i]);  // fast if the names are sorted
+  }
   const std::size_t last = numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end()) + std::size_t{1};
   s.reserveSlots(std::max(s.slots.size(), last));
   std::vector<std::shared_ptr<const Body>> shared;
@@ -356,8 +360,8 @@ void Scene::removeRules(const std::vector<bool>& gone) {
 void Scene::prepareNames(NameMatches matches) {
   std::vector<NameMatches>& kept = state_->name_matches;
   kept.push_back(std::move(matches));
-  // The bodies of some matches were perhaps never added. Their number is limited, because the next commit with a new
-  // structure may come much later.
+  // The bodies may never be added, and the next commit with a new structure may come late. So the number of matches is
+  // limited.
   std::size_t names = 0;
   auto oldest = kept.end();
   while (oldest != kept.begin() && kept.end() - oldest < kMostMatches) {

@@ -129,7 +129,7 @@ struct Scene::State {
 
   std::shared_ptr<const Structure> structure = std::make_shared<Structure>();
   std::vector<std::uint32_t> uncovered;     // bodies of the structure that are neither covered nor waived, ascending
-  std::vector<const BodyShape*> shapes;     // indexed by the proxies of the structure, whose bodies have the shapes
+  std::vector<const BodyShape*> shapes;     // indexed by the proxies of the structure; its bodies own the shapes
   std::vector<std::uint32_t> body_of_slot;  // index of the body in the structure; kNone: the slot is not used
   std::vector<Aabb> sizes;                  // [m] for each proxy: the box of its shape in its own frame, see sizeOf()
   std::shared_ptr<const Snapshot> last;     // snapshot of the last commit; null before the first one

@@ -25,14 +25,14 @@ struct PooledSnapshot {
   }
 
   Snapshot snapshot;
-  std::unique_ptr<BroadPhase> broad_phase;  ///< null until the first commit that fills this object
+  std::unique_ptr<BroadPhase> broad_phase;  ///< null until a commit fills this object, and after release()
   std::uint64_t grid_revision = 0;          ///< revision of the structure that `broad_phase` was set up for
   bool finished = false;  ///< whether a commit has filled the snapshot; if the commit failed, it is not used again
 
   /// Releases what the next commit does not need: the cells of maps, the rooms, and the structure before the last
   /// change. Also releases the structure, with its bodies, unless it is the newest one. Keeps the memory of the arrays,
   /// so that a tick with a new structure need not allocate it.
-  /// @param revision  of the newest structure
+  /// @param revision  the revision of the newest structure
   void release(std::uint64_t revision) {
     snapshot.cells_.clear();
     snapshot.rooms_.reset();
@@ -79,7 +79,7 @@ class SnapshotPool {
     } while (revision != revision_);
     if (free_.size() < kMostKept) free_.push_back(std::move(snapshot));
   }
-  /// Releases all structures but one, now and when snapshots are given back. Allocates no memory.
+  /// Releases all structures except this one, now and in later calls of giveBack(). Allocates no memory.
   void keepOnly(std::uint64_t revision) {
     std::array<std::unique_ptr<PooledSnapshot>, kMostKept> kept;
     {

@@ -68,8 +68,8 @@ TEST_P(DistanceBlocksOracle, BoundsAreNeverTooLargeAndAtMostADiagonalTooSmall) {
   EXPECT_EQ(known > 0, blocks_.isKnown());
 }
 
-// The blocks begin at the first voxel. The second one is at each place in relation to their borders.
-TEST(DistanceBlocks, AVoxelIsSeenFromEverywhereNearIt) {
+// The first voxel fixes the borders of the blocks. The second voxel moves along a diagonal over three blocks.
+TEST(DistanceBlocks, BoundsNearAVoxelAreNeverTooLarge) {
   Random random(9);
   int near = 0;
   for (std::uint16_t step = 0; step < 24; ++step) {
@@ -80,7 +80,8 @@ TEST(DistanceBlocks, AVoxelIsSeenFromEverywhereNearIt) {
     for (int i = 0; i < 300; ++i) {
       std::array<Eigen::Vector3d, 4> at;
       for (Eigen::Vector3d& point : at) {
-        point = center + map.edge * Eigen::Vector3d(random.uniform(-8, 8), random.uniform(-1, 1), random.uniform(-1, 1));
+        point =
+            center + map.edge * Eigen::Vector3d(random.uniform(-8, 8), random.uniform(-1, 1), random.uniform(-1, 1));
         std::swap(point[0], point[random.below(3)]);
       }
       const FourPoints points(blocks, at);
@@ -118,31 +119,32 @@ TEST(DistanceBlocks, MapsWithoutVoxelsAreFarFromEverything) {
   for (std::size_t lane = 0; lane < 4; ++lane) EXPECT_EQ(bounds[lane], DistanceBlocks::kFarthest);
 }
 
-TEST(DistanceBlocks, PointsThatAreNotNumbersAreFarFromNothing) {
+TEST(DistanceBlocks, PointsWithNanHaveNoPositiveBound) {
   const DistanceBlocks blocks{StaticGrid(0.05, {{32768, 32768, 32768, 0}})};
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const Four four = allFour(nan), bounds = blocks.lowerBounds({four, four, four});
   for (std::size_t lane = 0; lane < 4; ++lane) EXPECT_FALSE(bounds[lane] > 0.0f);
 }
 
-// A line of voxels that is longer than what is kept.
-TEST(DistanceBlocks, WithoutMemoryBoundsAreZero) {
+// The map has more blocks than DistanceBlocks keeps.
+TEST(DistanceBlocks, AfterTheLastBlockBoundsAreZero) {
   Map map{"line", 0.05, {}};
   for (std::uint32_t x = 0; x < 65536; x += 4) map.voxels.push_back({static_cast<std::uint16_t>(x), 32768, 32768, 0});
   const DistanceBlocks blocks{StaticGrid(map.edge, map.voxels)};
   ASSERT_TRUE(blocks.isKnown());
   std::size_t zero = 0, positive = 0;
-  for (float x = 10.0f; x < 65536.0f; x += 8.0f) {
-    for (float y = 2.0f; y < 16.0f; y += 8.0f) {
+  for (float x = 2.0f; x < 65546.0f; x += 8.0f) {
+    for (float y = 2.0f; y < 20.0f; y += 4.0f) {
       const Four bounds = blocks.lowerBounds({allFour(x), Four{y, y, y, y}, Four{2.0f, 10.0f, 2.0f, 10.0f}});
       for (std::size_t lane = 0; lane < 2; ++lane) {
         const double gap = std::hypot(std::max({6.0 - y, y - 7.0, 0.0}), lane == 0 ? 4.0 : 3.0);
-        ASSERT_LE(bounds[lane], gap + 4.0);
+        ASSERT_LE(bounds[lane], std::hypot(gap, 3.0) + 1e-3) << "at " << x << ", " << y;
         (bounds[lane] > 0.0f ? positive : zero) += 1;
       }
     }
   }
-  EXPECT_GT(positive, DistanceBlocks::kMostBlocks / 2);
+  EXPECT_GT(positive, 0u);
+  EXPECT_GT(zero, 0u);
 }
 
 TEST(DistanceBlocks, AllThreadsGetTheSameBounds) {

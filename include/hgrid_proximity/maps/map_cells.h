@@ -23,7 +23,7 @@ struct UnmappedSpace {
 struct MapCells {
   std::shared_ptr<const StaticGrid> grid;                     ///< occupied cells in the body's frame
   std::shared_ptr<const UnmappedSpace> unmapped = nullptr;    ///< unknown space; null: any space may be unknown
-  std::shared_ptr<const DistanceBlocks> distances = nullptr;  ///< tells quickly what is far from all cells; may be null
+  std::shared_ptr<const DistanceBlocks> distances = nullptr;  ///< lower bounds of distances to the cells; may be null
   std::array<std::shared_ptr<const Solid>, Voxel::kLevels + 1> cubes = {};  ///< for each level: a cell as a solid
 
   /// Returns the center of a voxel [m] in the frame of its body.
@@ -33,7 +33,10 @@ struct MapCells {
 };
 
 /// Creates the cells of a map or a cloud. `narrow_phase` creates MapCells::cubes.
+/// @param lasting  whether the cells stay for long; otherwise MapCells::distances is null, because its memory and the
+///                 time to fill it do not pay
 std::shared_ptr<const MapCells> makeMapCells(std::shared_ptr<const StaticGrid> grid, const NarrowPhase& narrow_phase,
-                                             std::shared_ptr<const UnmappedSpace> unmapped = nullptr);
+                                             std::shared_ptr<const UnmappedSpace> unmapped = nullptr,
+                                             bool lasting = true);
 
 }  // namespace hgrid

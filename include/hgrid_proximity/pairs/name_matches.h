@@ -10,7 +10,7 @@
 namespace hgrid {
 
 /// Says which names match which globs of the allowed-pair rules. PairFilter::match() makes it, on any thread, before
-/// bodies of these names are added. PairFilter::forBodies() then need not compare the names with the globs.
+/// bodies with these names are added. PairFilter::forBodies() then need not compare the names with the globs.
 struct NameMatches {
   /// The `first` and the `second` of each rule that contains a glob, in the order of the rules. Both are empty where
   /// PairFilter::without() left a rule out.
@@ -18,7 +18,7 @@ struct NameMatches {
 
   Globs globs;
   std::vector<std::string> names;  ///< sorted, each name once
-  /// One bit set for each name, of (globs.size() + 63) / 64 words. Bit k: globs[k].first matches the name.
+  /// For each name, (globs.size() + 63) / 64 words. Bit k: globs[k].first matches the name.
   std::vector<std::uint64_t> as_first;
   /// Like as_first. Bit k: globs[k].second matches the name.
   std::vector<std::uint64_t> as_second;

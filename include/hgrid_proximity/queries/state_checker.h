@@ -78,7 +78,8 @@ struct StateMemory;
 struct CheckerParts;
 
 /// Memory that a thread uses for checking states. Each thread needs its own. It keeps its memory, so that later batches
-/// of the same size allocate nothing.
+/// of the same size allocate nothing. Exception: where the robot is near a map at a place that no state was near
+/// before, the map computes bounds of distances (MapCells::distances).
 class StateScratch {
  public:
   StateScratch();

@@ -137,10 +137,10 @@ class Scene {
   void setPreparedRules(PreparedRules prepared);
   /// Removes rules, from the next commit on. @param gone  for each rule in rules(): whether it is removed
   void removeRules(const std::vector<bool>& gone);
-  /// Takes names of bodies that will be added, already matched with the rules. The next commit with a new structure
-  /// uses them, unless the rules have changed since. They save time and change no result. If more than
-  /// SceneOptions::max_bodies names or the matches of 64 calls wait for a commit, the oldest are dropped.
-  /// @param matches  made by PairFilter::match(), which any thread may call, of the filter of the newest snapshot
+  /// Takes a result of PairFilter::match() for names of bodies that will be added. The next commit with a new structure
+  /// uses it if the globs of the rules are unchanged. It saves time and changes no result. The results of the last 64
+  /// calls are kept, or fewer if they have more than SceneOptions::max_bodies names.
+  /// @param matches  of the filter of the newest snapshot, or of the one given to setPreparedRules()
   void prepareNames(NameMatches matches);
   /// Returns the rules that the next commit uses, in the order in which they were set.
   const std::vector<PairRule>& rules() const;

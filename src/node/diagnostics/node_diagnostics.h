@@ -9,6 +9,7 @@
 #include <string>
 
 #include "node/diagnostics/node_health.h"
+#include "node/tick/newest_tick.h"
 #include "node/tick/tick.h"
 
 namespace hgrid {
@@ -18,8 +19,6 @@ namespace hgrid {
 /// may use it.
 class NodeDiagnostics {
  public:
-  using NewestTick = std::function<std::shared_ptr<const Tick>()>;
-
   NodeDiagnostics(ros::NodeHandle node, ros::NodeHandle private_node, const std::string& name, NewestTick newest,
                   const NodeHealth& health);
   /// Publishes immediately. Otherwise the updater would wait for the end of its period.

@@ -7,8 +7,8 @@
 namespace hgrid {
 namespace {
 
-// Smallest and largest number of edges in one call of checkEdges(), which examines four edges at a time. The number
-// doubles with each call, so that an early conflict wastes little work.
+// advance() begins with kFewestEdges, because checkEdges() examines four edges at a time. The number then doubles up to
+// kMostEdges, so that an early conflict wastes little work.
 constexpr std::size_t kFewestEdges = 4, kMostEdges = 64;
 
 /// Returns a time in seconds as nanoseconds.
@@ -40,7 +40,7 @@ PathAnswer EdgeWalk::clearUntil(std::size_t end) const {
 
 void EdgeWalk::extend(PathAnswer& answer, const StateChecker& checker, std::size_t first) {
   request_.any_contact = false;
-  std::size_t count = 1;  // in most cases, the first edge has the conflict
+  std::size_t count = 1;  // 1: in most cases, the first edge has the conflict
   for (; first + 1 < times_.size() && !answer.conflict; count = std::min(2 * count, kMostEdges)) {
     check(checker, first, count);
     for (std::size_t i = 0; i < edges_.size() && !answer.conflict; ++i) add(answer, checker, i);

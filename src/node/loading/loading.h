@@ -15,6 +15,7 @@
 #include "node/loading/robot_loader.h"
 #include "node/sources/cloud_source.h"
 #include "node/sources/self_shapes.h"
+#include "node/tick/newest_tick.h"
 
 namespace hgrid {
 
@@ -22,8 +23,6 @@ namespace hgrid {
 /// The tick thread must not use it. Each cloud is read on a separate thread.
 class Loading {
  public:
-  using NewestTick = SelfShapes::NewestTick;
-
   /// @param node          its callback queue must be that of the thread that uses this object
   /// @param private_node  robot descriptions are searched from its namespace upwards
   /// @param robots        the robots of the world

@@ -104,7 +104,7 @@ Refusal RobotLoader::load(const Robot& robot, SharedReader& reader) {
     const auto after = std::make_shared<std::optional<RobotModels>>();
     const auto matches = matchNames(namesOfBodies({loaded}), newest_());
     jobs_.run([loaded, matches, after](World& world) {
-      if (matches) world.prepareNames(std::move(*matches));
+      world.prepareNames(matches);
       world.setRobot(std::move(*loaded));
       after->emplace(world.robots());
     });
@@ -131,7 +131,7 @@ PreparedRobots RobotLoader::prepare(const std::vector<RobotRequest>& requests) c
   return hgrid::prepare(requests, robots_.all(), source_, params_);
 }
 
-/// Returns what the rules match of the robots that a request brings into the world; null: see matchNames().
+/// Returns the result of matchNames() for the bodies of all robots that a request adds.
 std::shared_ptr<NameMatches> RobotLoader::matchesOf(const PreparedRobots& prepared) const {
   std::vector<std::shared_ptr<const LoadedRobot>> coming;
   for (const RobotChange& change : prepared.changes) {
@@ -157,7 +157,7 @@ std::shared_ptr<const Tick> RobotLoader::change(const ChangeWorld& change_world,
   try {
     const auto matches = prepared == nullptr ? nullptr : matchesOf(*prepared);
     tick = change_world([act, matches, after](World& world) {
-      if (matches) world.prepareNames(std::move(*matches));
+      world.prepareNames(matches);
       act(world);
       after->emplace(world.robots());
     });

@@ -16,6 +16,7 @@
 #include "node/sources/robot_source.h"
 #include "node/tick/change_world.h"
 #include "node/tick/match_names.h"
+#include "node/tick/newest_tick.h"
 #include "node/tick/tick_jobs.h"
 #include "node/world/robot_models.h"
 
@@ -25,8 +26,6 @@ namespace hgrid {
 /// tick thread must not use it.
 class RobotLoader {
  public:
-  using NewestTick = std::function<std::shared_ptr<const Tick>()>;
-
   /// `source`, `params`, `jobs` and `health` must outlive this object. @param robots  the robots of the world
   RobotLoader(const RobotSource& source, const Params& params, const RobotModels& robots, NewestTick newest,
               TickJobs& jobs, NodeHealth& health);

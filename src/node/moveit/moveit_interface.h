@@ -12,6 +12,7 @@
 #include "node/moveit/scene_services.h"
 #include "node/moveit/scene_topics.h"
 #include "node/moveit/validity_service.h"
+#include "node/tick/newest_tick.h"
 
 namespace hgrid {
 
@@ -24,8 +25,8 @@ class MoveItInterface {
   /// @param is_ending  returns whether the node is shutting down
   /// All other parameters must outlive this object.
   MoveItInterface(ros::NodeHandle node, const ros::NodeHandle& query_node, Commons& commons, const MapSource& maps,
-                  TickJobs& jobs, const ChangeWorld& change_world, ServiceEnvelope::NewestTick newest,
-                  const TransformLookup& transforms, std::function<bool()> is_ending)
+                  TickJobs& jobs, const ChangeWorld& change_world, NewestTick newest, const TransformLookup& transforms,
+                  std::function<bool()> is_ending)
       : node_(std::move(node)),
         commons_(commons),
         octomap_(maps, jobs, commons.ledger),
@@ -49,7 +50,7 @@ class MoveItInterface {
   SceneOctomap octomap_;
   SceneGaps gaps_;  // only jobs use it
   TickJobs& jobs_;
-  ServiceEnvelope::NewestTick newest_;
+  NewestTick newest_;
   std::function<bool()> is_ending_;
   std::optional<SceneTopics> topics_;
   std::optional<SceneServices> services_;

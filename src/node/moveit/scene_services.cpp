@@ -21,7 +21,7 @@
 namespace hgrid {
 
 SceneServices::SceneServices(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps,
-                             ServiceEnvelope::NewestTick newest, ChangeWorld change_world)
+                             NewestTick newest, ChangeWorld change_world)
     : commons_(commons),
       reader_(commons.settings.params, *commons.narrow_phase),
       octomap_(octomap),
@@ -68,7 +68,7 @@ void SceneServices::apply(const moveit::ApplyPlanningScene::Request& request,
     }
     const auto matches = matchNames(addedNames(read->changes()), newest_());
     change_world_([read, map, matches, &gaps = gaps_](World& world) {
-      if (matches) world.prepareNames(std::move(*matches));
+      world.prepareNames(matches);
       read->applyTo(world, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())));
       if (!read->applied()) throw *read->refused();
       read->noteIn(gaps);

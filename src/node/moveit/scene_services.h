@@ -12,8 +12,8 @@
 #include "node/moveit/scene_gaps.h"
 #include "node/moveit/scene_octomap.h"
 #include "node/moveit/scene_types.h"
-#include "node/services/envelope/service_envelope.h"
 #include "node/tick/change_world.h"
+#include "node/tick/newest_tick.h"
 
 namespace hgrid {
 
@@ -21,9 +21,9 @@ namespace hgrid {
 class SceneServices {
  public:
   /// @param node  the names of the services are resolved in its namespace; the thread of its callback queue serves them
-  /// All other parameters must outlive this object.
-  SceneServices(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps,
-                ServiceEnvelope::NewestTick newest, ChangeWorld change_world);
+  /// `commons`, `octomap` and `gaps` must outlive this object.
+  SceneServices(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps, NewestTick newest,
+                ChangeWorld change_world);
 
  private:
   template <class Service>
@@ -36,7 +36,7 @@ class SceneServices {
   SceneReader reader_;
   SceneOctomap& octomap_;
   SceneGaps& gaps_;  // only jobs use it
-  ServiceEnvelope::NewestTick newest_;
+  NewestTick newest_;
   ChangeWorld change_world_;
   std::vector<ros::ServiceServer> servers_;
 };

@@ -22,11 +22,11 @@ constexpr std::chrono::milliseconds kTickShare{5};                  // time of o
 constexpr std::size_t kBatchMessages = 256, kBatchBytes = 1 << 20;  // read before a tick applies them
 constexpr std::chrono::milliseconds kRetryPause{100};  // before a message is applied again to a world that is not ready
 
-/// Returns the full names of the obstacles that the messages from this one on may add.
-std::vector<std::string> namesAddedFrom(std::size_t first, const std::vector<std::shared_ptr<ReadScene>>& batch) {
+/// Returns the full names of the obstacles that the messages may add.
+std::vector<std::string> namesAddedBy(const std::vector<std::shared_ptr<ReadScene>>& batch) {
   std::vector<std::string> names;
-  for (std::size_t i = first; i < batch.size(); ++i) {
-    const std::vector<std::string> more = addedNames(batch[i]->changes());
+  for (const std::shared_ptr<ReadScene>& read : batch) {
+    const std::vector<std::string> more = addedNames(read->changes());
     names.insert(names.end(), more.begin(), more.end());
   }
   return names;
@@ -35,7 +35,7 @@ std::vector<std::string> namesAddedFrom(std::size_t first, const std::vector<std
 }  // namespace
 
 SceneTopics::SceneTopics(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps,
-                         ServiceEnvelope::NewestTick newest, TickJobs& jobs, std::function<bool()> is_ending)
+                         NewestTick newest, TickJobs& jobs, std::function<bool()> is_ending)
     : commons_(commons),
       newest_(std::move(newest)),
       jobs_(jobs),
@@ -142,13 +142,14 @@ void SceneTopics::takeAll(SceneQueue::Popped& popped) {
 /// Applies messages in their order, in as many ticks as are necessary.
 void SceneTopics::apply(const SceneBatch& batch) {
   const auto shared = std::make_shared<const SceneBatch>(batch);
+  const auto all_matches = matchNames(namesAddedBy(batch), newest_());
   std::size_t settled = 0;
   while (settled < batch.size() && !is_ending_()) {
     const auto done = std::make_shared<std::size_t>(settled);  // shared: run() may end before the job does
-    const auto matches = matchNames(namesAddedFrom(settled, batch), newest_());
+    const auto matches = all_matches ? std::make_shared<NameMatches>(*all_matches) : nullptr;
     try {
       jobs_.run([shared, done, matches, &gaps = gaps_](World& world) {
-        if (matches) world.prepareNames(std::move(*matches));
+        world.prepareNames(matches);
         applySome(*shared, *done, gaps, world);
       });
     } catch (const Refusal& refusal) {

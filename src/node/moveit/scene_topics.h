@@ -19,7 +19,7 @@
 #include "node/moveit/scene_message.h"
 #include "node/moveit/scene_octomap.h"
 #include "node/moveit/scene_queue.h"
-#include "node/services/envelope/service_envelope.h"
+#include "node/tick/newest_tick.h"
 #include "node/tick/tick_jobs.h"
 
 namespace hgrid {
@@ -36,9 +36,9 @@ class SceneTopics {
  public:
   /// @param node       the names of the topics are resolved in its namespace
   /// @param is_ending  returns whether the node is shutting down
-  /// All other parameters must outlive this object.
-  SceneTopics(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps,
-              ServiceEnvelope::NewestTick newest, TickJobs& jobs, std::function<bool()> is_ending);
+  /// `commons`, `octomap`, `gaps` and `jobs` must outlive this object.
+  SceneTopics(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps, NewestTick newest,
+              TickJobs& jobs, std::function<bool()> is_ending);
   ~SceneTopics();
   SceneTopics(const SceneTopics&) = delete;
   SceneTopics& operator=(const SceneTopics&) = delete;
@@ -55,7 +55,7 @@ class SceneTopics {
   void settle(const ReadScene& read);
 
   Commons& commons_;
-  const ServiceEnvelope::NewestTick newest_;
+  const NewestTick newest_;
   TickJobs& jobs_;
   const std::function<bool()> is_ending_;
   SceneReader reader_;

@@ -11,7 +11,7 @@
 
 namespace hgrid {
 
-ValidityService::ValidityService(ros::NodeHandle node, Commons& commons, ServiceEnvelope::NewestTick newest,
+ValidityService::ValidityService(ros::NodeHandle node, Commons& commons, NewestTick newest,
                                  const TransformLookup& transforms)
     : commons_(commons), newest_(std::move(newest)), transforms_(transforms) {
   using Event = ros::ServiceEvent<Checked<moveit::GetStateValidity::Request>, moveit::GetStateValidity::Response>;

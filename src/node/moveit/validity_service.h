@@ -9,6 +9,7 @@
 #include "node/moveit/validity_types.h"
 #include "node/services/envelope/service_envelope.h"
 #include "node/tf/transform_lookup.h"
+#include "node/tick/newest_tick.h"
 
 namespace hgrid {
 
@@ -18,14 +19,13 @@ class ValidityService {
  public:
   /// @param node  the name of the service is resolved in its namespace
   /// All other parameters must outlive this object.
-  ValidityService(ros::NodeHandle node, Commons& commons, ServiceEnvelope::NewestTick newest,
-                  const TransformLookup& transforms);
+  ValidityService(ros::NodeHandle node, Commons& commons, NewestTick newest, const TransformLookup& transforms);
 
  private:
   void answer(const moveit::GetStateValidity::Request& request, moveit::GetStateValidity::Response& response);
 
   Commons& commons_;
-  ServiceEnvelope::NewestTick newest_;
+  NewestTick newest_;
   const TransformLookup& transforms_;
   ros::ServiceServer server_;
 };

@@ -9,7 +9,7 @@
 namespace hgrid {
 
 NodeServices::NodeServices(const ros::NodeHandle& query_node, const ros::NodeHandle& batch_node,
-                           const ros::NodeHandle& admin_node, Commons& commons, ServiceEnvelope::NewestTick newest,
+                           const ros::NodeHandle& admin_node, Commons& commons, NewestTick newest,
                            ChangeWorld change_world, const TransformLookup& transforms, const TickHistory& history,
                            Loading& loading, StateKeeper& state, Guard& guard, Stopwatch& stopwatch,
                            QuerySketch& sketch)

@@ -71,7 +71,7 @@ void ObstacleService::apply(ServiceCall<msg::ApplyObstacles>& call) const {
     checkTouch(*changes, call.tick, params_);
     const auto matches = matchNames(addedNames(*changes), call.tick.get());
     call.tick = AnswerTick(change_world_([changes, matches](World& world) {
-      if (matches) world.prepareNames(std::move(*matches));
+      world.prepareNames(matches);
       world.applyObstacles(*changes, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())));
     }));
     call.response.durable = wait_until_stored_();

@@ -25,7 +25,7 @@ struct PreparedScene {
   std::vector<ObstacleChange> changes;
   std::set<std::string> names;  ///< full names of its obstacles
   PreparedRules rules;
-  std::shared_ptr<NameMatches> matches;  ///< of the names and the rules, see matchNames()
+  std::shared_ptr<NameMatches> matches;  ///< result of matchNames() for `names` and `rules`; may be null
 };
 
 /// Checks that each name or glob is that of a body of the world or of an obstacle of the scene. @throws Refusal
@@ -118,7 +118,7 @@ void SceneFileServices::load(ServiceCall<msg::LoadScene>& call) const {
     }
     all.changes.insert(all.changes.end(), prepared->changes.begin(), prepared->changes.end());
     PreparedRules next = prepared->rules;  // copied first, because nothing may fail after the obstacles were changed
-    if (prepared->matches) world.prepareNames(std::move(*prepared->matches));
+    world.prepareNames(prepared->matches);
     world.applyObstacles(all, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())));
     world.setRules(std::move(next));
   }));

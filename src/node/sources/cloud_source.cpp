@@ -24,8 +24,7 @@ Time durationOf(double length) { return Time(std::llround(1e9 * length)); }
 
 CloudSource::CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, const Params& params,
                          const SelfShapes& self_shapes, const TransformLookup& transforms,
-                         std::shared_ptr<const NarrowPhase> narrow_phase, SelfShapes::NewestTick newest, Sink sink,
-                         Ledger& ledger)
+                         std::shared_ptr<const NarrowPhase> narrow_phase, NewestTick newest, Sink sink, Ledger& ledger)
     : cloud_(cloud),
       what_("cloud '" + cloud.name + "' of " + cloud.topic),
       counter_("cloud/" + cloud.name + "."),
@@ -209,7 +208,8 @@ void CloudSource::onTimer() {
 }
 
 void CloudSource::put() {
-  loaded_.cells = makeMapCells(std::make_shared<StaticGrid>(cells_.edge(), cells_.cells()), *narrow_phase_);
+  loaded_.cells = makeMapCells(std::make_shared<StaticGrid>(cells_.edge(), cells_.cells()), *narrow_phase_, nullptr,
+                               false);  // the next message replaces the cells
   loaded_.corner = cells_.corner();
   sink_.put(loaded_);
 }

@@ -17,6 +17,7 @@
 #include "node/params/params.h"
 #include "node/sources/loaded_map.h"
 #include "node/sources/self_shapes.h"
+#include "node/tick/newest_tick.h"
 #include "node/wire/cloud_message.h"
 
 namespace hgrid {
@@ -37,8 +38,7 @@ class CloudSource {
   /// @param node  the name of the topic is resolved in its namespace
   CloudSource(const ros::NodeHandle& node, const CloudParams& cloud, const Params& params,
               const SelfShapes& self_shapes, const TransformLookup& transforms,
-              std::shared_ptr<const NarrowPhase> narrow_phase, SelfShapes::NewestTick newest, Sink sink,
-              Ledger& ledger);
+              std::shared_ptr<const NarrowPhase> narrow_phase, NewestTick newest, Sink sink, Ledger& ledger);
   ~CloudSource();
 
  private:
@@ -61,7 +61,7 @@ class CloudSource {
   const SelfShapes& self_shapes_;
   const TransformLookup& transforms_;
   std::shared_ptr<const NarrowPhase> narrow_phase_;
-  SelfShapes::NewestTick newest_;
+  NewestTick newest_;
   Sink sink_;
   Ledger& ledger_;
 

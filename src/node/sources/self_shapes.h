@@ -11,17 +11,14 @@
 #include "hgrid_proximity/maps/self_filter.h"
 #include "node/params/params.h"
 #include "node/tf/transform_lookup.h"
+#include "node/tick/newest_tick.h"
 
 namespace hgrid {
-
-struct Tick;
 
 /// Returns the shapes and poses of the bodies that ~map/self_filter names. They are needed to leave out cells in which
 /// a sensor saw the robot itself. Any thread may use this class.
 class SelfShapes {
  public:
-  using NewestTick = std::function<std::shared_ptr<const Tick>()>;
-
   SelfShapes(const Params& params, const TransformLookup& transforms, NewestTick newest)
       : params_(params), transforms_(transforms), newest_(std::move(newest)) {}
 

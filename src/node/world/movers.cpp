@@ -20,12 +20,11 @@ void makeRoom(std::vector<T>& elements) {
 
 }  // namespace
 
-void Movers::Change::add(const std::string& frame, const SourceId& source, const Body& body,
-                         const Pose& frame_from_body) {
+void Movers::Change::add(const std::string& frame, const SourceId& source, Body body, const Pose& frame_from_body) {
   Mover mover{frame, source};
   mover.first = mover.last = members_.size();
   movers_.push_back(std::move(mover));
-  join(body, frame_from_body);
+  join(std::move(body), frame_from_body);
 }
 
 void Movers::Change::reserve(std::size_t bodies) {
@@ -34,8 +33,8 @@ void Movers::Change::reserve(std::size_t bodies) {
   members_.reserve(members_.size() + bodies);
 }
 
-void Movers::Change::join(const Body& body, const Pose& frame_from_body) {
-  in_.push_back(body);
+void Movers::Change::join(Body body, const Pose& frame_from_body) {
+  in_.push_back(std::move(body));
   members_.push_back(memberAt(frame_from_body));
   movers_.back().last = members_.size();
 }

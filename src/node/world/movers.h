@@ -82,9 +82,9 @@ class Movers::Change {
   /// Makes room for further movers with one body each.
   void reserve(std::size_t bodies);
   /// Adds a mover with one body.
-  void add(const std::string& frame, const SourceId& source, const Body& body, const Pose& frame_from_body);
+  void add(const std::string& frame, const SourceId& source, Body body, const Pose& frame_from_body);
   /// Adds a body to the mover that was added last.
-  void join(const Body& body, const Pose& frame_from_body);
+  void join(Body body, const Pose& frame_from_body);
 
  private:
   friend class Movers;

@@ -244,8 +244,11 @@ void ObstacleBodies::carryOut(ObstacleEdits edits, const std::string& world_fram
     Movers::Change change = movers.changeWithout(
         [&](const SourceId& source) { return source.kind == SourceKind::obstacle && leaving.count(source.name) != 0; });
     change.reserve(entering.size());
-    for (const Body& body : entering) {
-      change.add(body.frame, SourceId::ofObstacle(body.name), body, body.frame_from_body);
+    for (Body& body : entering) {
+      const std::string frame = body.frame;
+      const SourceId source = SourceId::ofObstacle(body.name);
+      const Pose frame_from_body = body.frame_from_body;
+      change.add(frame, source, std::move(body), frame_from_body);
     }
     movers.exchange(std::move(change));
   }

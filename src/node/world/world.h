@@ -83,8 +83,10 @@ class World {
   void clearMissing(const SourceId& source) noexcept { missing_.erase(source); }
   /// Replaces all rules for allowed pairs, from the next tick on. Expired rules are removed automatically.
   void setRules(PreparedRules rules);
-  /// Names of bodies that a change will add, already matched with the rules. See Scene::prepareNames(), matchNames().
-  void prepareNames(NameMatches matches) { scene_.prepareNames(std::move(matches)); }
+  /// Moves a result of matchNames() to Scene::prepareNames(). Does nothing if it is null.
+  void prepareNames(const std::shared_ptr<NameMatches>& matches) {
+    if (matches) scene_.prepareNames(std::move(*matches));
+  }
   /// Replaces the parameters that may change while the node runs. The next tick is the first with all of them.
   /// @param settings  changedSettings() made it from the settings in force; never null
   void setSettings(std::shared_ptr<const Settings> settings);

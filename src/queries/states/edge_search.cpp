@@ -209,7 +209,8 @@ void EdgeSearch::place(std::size_t lane) {
   }
 }
 
-/// Finds how near to each other shapes must be in the middle of a part to matter.
+/// Finds how near to each other shapes must be in the middle of a part to matter. If all shapes are searched,
+/// findPairReaches() does this for the pairs of shapes of the robot.
 void EdgeSearch::findReaches(std::size_t lane) {
   EdgeInWork& work = memory_.edges[lane];
   const MotionBounds::HalfPart half{memory_.groups, memory_.placed, all_.snapshot->origin(), lane,
@@ -233,9 +234,9 @@ void EdgeSearch::findReaches(std::size_t lane) {
   }
 }
 
-/// Finds the same for the pairs of shapes of the robot. Two shapes cannot travel farther against each other than both
-/// together in the world. So most pairs, which are farther apart, need no bound of their own.
-/// @param lanes  the lanes in which everything is searched
+/// Finds how near to each other the shapes of each pair must be to matter. Their relative travel is at most the sum of
+/// both travels, so pairs that are farther apart than this sum are skipped.
+/// @param lanes  the lanes in which all shapes are searched
 void EdgeSearch::findPairReaches(unsigned lanes) {
   const std::vector<SelfPair>& pairs = all_.robot.selfPairs();
   for (std::size_t i = 0; lanes != 0 && i < pairs.size(); ++i) {

@@ -18,7 +18,8 @@ inline unsigned overlapping(const FourShapes& a, const FourShapes& b, const Four
   return bitsOf(reinterpret_cast<FourCounts>(lanes));
 }
 
-/// Returns the same for a shape and a box, which is relative to the origin of the snapshot as well.
+/// Returns for each lane whether the box of a shape and `b`, which is relative to the origin of the snapshot, are at
+/// most `by` [m] apart along each axis.
 inline unsigned overlapping(const FourShapes& a, const Aabb& b, const Four& by) {
   auto lanes = (a.min[0] <= allFour(b.max[0]) + by) & (allFour(b.min[0]) - by <= a.max[0]);
   for (Eigen::Index k = 1; k < 3; ++k) {

@@ -8,8 +8,8 @@
 
 namespace hgrid {
 
-/// Tells quickly which shapes of a robot are surely far from a map. It covers each shape with spheres and compares
-/// their radii with the bounds of DistanceBlocks.
+/// Tells quickly which shapes of a robot are surely far from a map. Compares the spheres of a SphereCover with the
+/// bounds of DistanceBlocks.
 class MapClearance {
  public:
   /// @param map     its cells must outlive this object
@@ -21,8 +21,8 @@ class MapClearance {
   unsigned farther(const FourShapes& shape, const SphereCover& cover, const Four& reach, unsigned lanes) const;
 
  private:
-  const DistanceBlocks* blocks_;  // null: nothing is known
-  float turn_[3][3], shift_[3];   // from the world, relative to the origin, to finest edges of the map
+  const DistanceBlocks* blocks_;  // null: no shape counts as far
+  float turn_[3][3], shift_[3];   // transform a point, relative to the origin, to finest edges
   float per_edge_ = 0.0f;         // [1/m]
 };
 

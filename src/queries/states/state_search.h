@@ -70,10 +70,11 @@ struct StateMemory {
   std::vector<FourShapes> placed;      // for each shape of the robot
   std::vector<FourSpheres> spheres;    // for each shape of the robot, in each of the four states
   std::vector<std::uint8_t>
-      spheres_known;                  // for each shape of the robot: bit i: whether `spheres` has those of state i
-  std::vector<Four> shape_reach;      // [m] for each shape of the robot: how near something outside the robot matters
-  std::vector<std::uint8_t> map_far;  // for each map and each shape of the robot: bits of the states in which it is far
-  std::vector<Four> pair_reach;       // [m] for each pair of RobotShapes::selfPairs(): how near its shapes matter
+      spheres_known;              // for each shape of the robot: bit i: whether `spheres` has those of state i
+  std::vector<Four> shape_reach;  // [m] for each shape of the robot: how near something outside the robot matters
+  std::vector<std::uint8_t>
+      map_far;  // for each map and each shape of the robot: bits of the states in which it is far from the map
+  std::vector<Four> pair_reach;  // [m] for each pair of RobotShapes::selfPairs(): how near its shapes matter
   std::vector<FourDoubles> from, difference;  // for each variable: value at the beginning of an edge, and its change
   std::array<EdgeInWork, 4> edges;
   std::vector<double> gradient;  // for each variable

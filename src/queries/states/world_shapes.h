@@ -33,7 +33,7 @@ class WorldShapes {
     return spheres_.data() + (shape == 0 ? 0 : shapes_[shape - 1].spheres);
   }
   const std::deque<PlacedMap>& maps() const { return maps_; }
-  /// Returns for each of maps() what tells that shapes are far from it.
+  /// Returns the MapClearance of each of maps().
   const std::vector<MapClearance>& clearances() const { return clearances_; }
   const std::vector<PlacedPlane>& planes() const { return planes_; }
 

@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-/// Returns the corner, an edge or the inside of a box, at random.
+/// Returns a random point of a box, often on a face, an edge or a corner.
 Eigen::Vector3d randomPointOf(const TiltedBox<float>& box, Random& random) {
   Eigen::Vector3d point(box.center[0], box.center[1], box.center[2]);
   for (int axis = 0; axis < 3; ++axis) {
@@ -54,7 +54,7 @@ TEST(SphereCover, SpheresContainTheBox) {
   EXPECT_GT(counts.size(), 8u);
 }
 
-TEST(SphereCover, OfASphereIsTheSphere) {
+TEST(SphereCover, CoversASphereWithOneSphere) {
   const BodyShape shape = solidShape(Shape::sphere(0.2), Pose::Identity(), 0.05);
   const SphereCover cover = coverOf(shape, tiltedBoxOf(shape, Pose::Identity(), 1e-6));
   EXPECT_EQ(cover.count[0] * cover.count[1], 1u);
@@ -75,7 +75,7 @@ FourShapes placed(const TiltedBox<float> (&boxes)[4]) {
   return result;
 }
 
-TEST(MapClearance, WhatIsFartherIsFarther) {
+TEST(MapClearance, ReportsOnlyShapesBeyondTheReach) {
   int farther = 0, nearer = 0, covered = 0;
   for (unsigned seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

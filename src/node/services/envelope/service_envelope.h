@@ -15,6 +15,7 @@
 #include "node/services/envelope/answer_tick.h"
 #include "node/services/envelope/reply.h"
 #include "node/services/guarded.h"
+#include "node/tick/newest_tick.h"
 #include "node/wire/checked.h"
 
 namespace hgrid {
@@ -49,7 +50,6 @@ struct ServiceCall {
 /// Callbacks run on the threads that serve the queue of the node handle.
 class ServiceEnvelope {
  public:
-  using NewestTick = std::function<std::shared_ptr<const Tick>()>;
   template <class Service>
   using Work = std::function<void(ServiceCall<Service>&)>;
 
