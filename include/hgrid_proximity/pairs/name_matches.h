@@ -16,7 +16,7 @@ struct NameMatches {
   /// PairFilter::without() left a rule out.
   using Globs = std::vector<std::pair<std::string, std::string>>;
 
-  Globs globs;
+  Globs globs;                     ///< the globs that were compared with the names
   std::vector<std::string> names;  ///< sorted, each name once
   /// For each name, (globs.size() + 63) / 64 words. Bit k: globs[k].first matches the name.
   std::vector<std::uint64_t> as_first;
