@@ -81,18 +81,15 @@ struct Window {
 
 DistanceBlocks::DistanceBlocks(const StaticGrid& grid) : grid_(grid) {
   if (grid.size() == 0) return;
-  std::array<std::int32_t, 3> counts;
-  std::size_t places = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto keyOf = [&](double at) { return static_cast<std::int32_t>(std::lround(at / grid.finestEdge())); };
     const auto k = static_cast<Eigen::Index>(axis);
     first_cell_[axis] = keyOf(grid.bounds().min()[k]) - kMargin;
-    counts[axis] = (keyOf(grid.bounds().max()[k]) + kMargin - first_cell_[axis] + kEdge - 1) / kEdge;
+    block_counts_[axis] = (keyOf(grid.bounds().max()[k]) + kMargin - first_cell_[axis] + kEdge - 1) / kEdge;
     corner_[k] = first_cell_[axis] * grid.finestEdge();
-    cell_counts_[axis] = static_cast<float>(counts[axis] * kEdge);
-    places *= static_cast<std::size_t>(counts[axis]);
+    cell_counts_[axis] = static_cast<float>(block_counts_[axis] * kEdge);
   }
-  if (places <= kMostPlaces) block_counts_ = counts;
+  if (places() > kMostPlaces) block_counts_ = {};
 }
 
 DistanceBlocks::~DistanceBlocks() = default;

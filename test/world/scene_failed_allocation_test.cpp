@@ -290,7 +290,7 @@ TEST(SceneFailedAllocation, AfterABodyMovedAndLeftIsHarmless) {
   EXPECT_GT(failures, 20u);
 }
 
-/// Claim: a commit that fails keeps the prepared names for the next one. Wrong bits show whether it uses them.
+/// Claim: a commit that fails keeps the prepared names for the next one. The test sets wrong bits to detect the use.
 TEST(SceneFailedAllocation, KeepsPreparedNames) {
   SceneOptions options;
   options.allowed_pairs = {test::allow("obstacle/*", "obstacle/*")};

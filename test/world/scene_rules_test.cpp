@@ -141,7 +141,8 @@ TEST_F(SceneRules, AllowTheSamePairsIfNamesWerePrepared) {
   }
 }
 
-/// Claim: the next commit with a new structure uses the prepared names, a later one does not. Wrong bits show it.
+/// Claim: only the next commit with a new structure uses the prepared names. The test sets wrong bits to detect the
+/// use.
 TEST_F(SceneRules, UsePreparedNamesOnce) {
   scene_.setRules({allow("arm/*", "obstacle/*")});
   NameMatches matches = matched(now(), {"obstacle/late"});
@@ -158,7 +159,8 @@ TEST_F(SceneRules, UsePreparedNamesOnce) {
   EXPECT_EQ(test::namedPairs(now()).count(late), 0u);
 }
 
-/// Claim: the scene keeps matches of at most SceneOptions::max_bodies names, and of at most 64 calls. The oldest go.
+/// Claim: the scene keeps matches of at most SceneOptions::max_bodies names, and of at most 64 calls. The oldest are
+/// dropped.
 TEST(ScenePreparedNames, AreLimited) {
   SceneOptions options;
   options.max_bodies = 100;

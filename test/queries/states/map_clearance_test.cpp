@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "bodies/forward_kinematics.h"
 #include "test/queries/states/state_worlds.h"
 
 namespace hgrid {
