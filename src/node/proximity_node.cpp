@@ -53,11 +53,11 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       services_(
           query_threads_.privateNode(), batch_threads_.privateNode(), admin_thread_.privateNode(), commons_,
           [this] { return tick_loop_.newest(); },
-          [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); }, world_.transforms().lookup(),
+          [this](const TickJobs::Job& job) { return changeWorld(job); }, world_.transforms().lookup(),
           history_, loading_, state_, guard_, stopwatch_, sketch_),
       moveit_(
           admin_thread_.node(), query_threads_.node(), commons_, loading_.mapSource(), jobs_,
-          [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); },
+          [this](const TickJobs::Job& job) { return changeWorld(job); },
           [this] { return tick_loop_.newest(); }, world_.transforms().lookup(), [this] { return isEnding(); }),
       trackers_(
           admin_thread_.node(), commons_, world_.transforms().lookup(), [this] { return tick_loop_.newest(); }, jobs_),
@@ -68,7 +68,7 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       housekeeping_(admin_thread_.node(), marker_pace_.period(), ChoreList(chores(), commons_.ledger)),
       reconfigure_(
           admin_thread_.privateNode(), commons_.settings,
-          [this](const TickJobs::Job& job) { return tick_loop_.tickAfter(job); },
+          [this](const TickJobs::Job& job) { return changeWorld(job); },
           [this](const Params& params) { takeOver(params); }, commons_.ledger) {
   tick_loop_.setSteps(tickSteps());
   housekeeping_.start();
@@ -97,6 +97,14 @@ void ProximityNode::stop() {
   admin_thread_.stop();
 }
 
+/// Changes the world in a tick, see ChangeWorld. Waits until ~bodies and ~rules show the change, so that a client finds
+/// it there when the answer arrives.
+std::shared_ptr<const Tick> ProximityNode::changeWorld(const TickJobs::Job& job) {
+  std::shared_ptr<const Tick> tick = tick_loop_.tickAfter(job);
+  publishers_.waitForStructure();
+  return tick;
+}
+
 /// Takes over those parameters that may change while the node runs and that no tick uses. The admin thread calls this.
 void ProximityNode::takeOver(const Params& params) {
   query_threads_.setThreads(static_cast<std::uint32_t>(params.query_threads));
@@ -119,7 +127,7 @@ std::vector<TickLoop::Step> ProximityNode::tickSteps() {
   using TickPtr = std::shared_ptr<const Tick>;
   // First of all, so that nothing can fail before: a request is answered only after its changes were collected.
   return {{"", [this](const TickPtr& tick) { state_.see(world_, *tick); }},
-          {"tick.publish", [this](const TickPtr& tick) { publishers_.publishTick(*tick); }, true},
+          {"tick.publish", [this](const TickPtr& tick) { publishers_.publishTick(tick); }, true},
           {"history", [this](const TickPtr& tick) { history_.see(*tick); }},
           {"",
            [this](const TickPtr& tick) {

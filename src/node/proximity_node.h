@@ -52,6 +52,7 @@ class ProximityNode {
   void beginTicks();
   std::vector<TickLoop::Step> tickSteps();
   std::vector<Chore> chores();
+  std::shared_ptr<const Tick> changeWorld(const TickJobs::Job& job);
   void takeOver(const Params& params);
 
   // Each part uses only the parts that are declared above it.

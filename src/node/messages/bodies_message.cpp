@@ -34,6 +34,7 @@ msg::Body toMsg(const Body& source, double margin) {
   body.mobility = static_cast<std::uint8_t>(source.mobility);
   body.robot = source.robot;
   body.rigid_group = source.rigid_group;
+  body.shapes.reserve(source.shapes.size());
   for (const BodyShape& shape : source.shapes) body.shapes.push_back(toMsg(shape));
   body.covered = source.covered;
   body.waived = source.waived;
@@ -69,6 +70,7 @@ msg::Bodies bodiesMessage(const Tick& tick) {
   const Structure& structure = tick.snapshot->structure();
   message.bodies_revision = structure.revision;
   message.origin = toPoint(tick.snapshot->origin());
+  message.bodies.reserve(structure.bodies.size());
   for (std::size_t i = 0; i < structure.bodies.size(); ++i) {
     message.bodies.push_back(toMsg(structure.bodies[i], structure.margin[i]));
     const auto cells = tick.snapshot->cellsOf(static_cast<std::uint32_t>(i));

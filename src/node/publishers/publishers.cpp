@@ -7,15 +7,13 @@ namespace hgrid {
 Publishers::Publishers(ros::NodeHandle tick_node, ros::NodeHandle admin_node, Commons& commons,
                        const Stopwatch& stopwatch, const QuerySketch& sketch)
     : streams_(tick_node, commons, stopwatch),
-      bodies_(tick_node),
-      rules_(tick_node, commons.settings.params),
+      structure_(tick_node, commons.settings.params, commons.ledger),
       distances_(tick_node, commons),
       markers_(admin_node, sketch) {}
 
-void Publishers::publishTick(const Tick& tick) {
-  streams_.publish(tick);
-  bodies_.publish(tick);
-  rules_.publish(tick);
+void Publishers::publishTick(const std::shared_ptr<const Tick>& tick) {
+  streams_.publish(*tick);
+  structure_.publish(tick);
 }
 
 std::optional<std::chrono::nanoseconds> Publishers::publishDistances(const std::shared_ptr<const Tick>& tick) {

@@ -9,11 +9,10 @@
 #include <optional>
 
 #include "node/commons.h"
-#include "node/publishers/bodies_publisher.h"
 #include "node/publishers/distances_publisher.h"
 #include "node/publishers/markers_publisher.h"
-#include "node/publishers/rules_publisher.h"
 #include "node/publishers/streams_publisher.h"
+#include "node/publishers/structure_publisher.h"
 
 namespace hgrid {
 
@@ -25,8 +24,11 @@ class Publishers {
   Publishers(ros::NodeHandle tick_node, ros::NodeHandle admin_node, Commons& commons, const Stopwatch& stopwatch,
              const QuerySketch& sketch);
 
-  /// Publishes ~events, ~pairs and ~status, and also ~bodies and ~rules if they changed. The tick thread calls this.
-  void publishTick(const Tick& tick);
+  /// Publishes ~events, ~pairs and ~status. Starts to publish ~bodies and ~rules if they changed. The tick thread calls
+  /// this.
+  void publishTick(const std::shared_ptr<const Tick>& tick);
+  /// Waits until ~bodies and ~rules of the ticks so far are published. Any thread except the tick thread may call this.
+  void waitForStructure() { structure_.wait(); }
   /// Starts to measure and publish ~distances, see DistancesPublisher::publish(). The tick thread calls this.
   std::optional<std::chrono::nanoseconds> publishDistances(const std::shared_ptr<const Tick>& tick);
   /// Publishes ~markers. The admin thread calls this. @param newest  null before the first tick
@@ -34,8 +36,7 @@ class Publishers {
 
  private:
   StreamsPublisher streams_;
-  BodiesPublisher bodies_;
-  RulesPublisher rules_;
+  StructurePublisher structure_;
   DistancesPublisher distances_;
   MarkersPublisher markers_;
 };

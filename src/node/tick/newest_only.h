@@ -3,6 +3,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -24,7 +25,7 @@ class NewestOnly {
       const std::lock_guard<std::mutex> lock(mutex_);
       ends_ = true;
     }
-    changed_.notify_one();
+    changed_.notify_all();
     thread_.join();
   }
   NewestOnly(const NewestOnly&) = delete;
@@ -37,21 +38,35 @@ class NewestOnly {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       std::swap(next, waiting_);
+      ++given_;
     }
-    changed_.notify_one();
+    changed_.notify_all();
     return next.has_value();
+  }
+  /// Waits until the thread has worked on all values that were passed before this call, apart from dropped ones. Any
+  /// thread may call this, except the thread that works.
+  void wait() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    const std::uint64_t given = given_;
+    changed_.wait(lock, [this, given] { return done_ >= given; });
   }
 
  private:
   void run() {
+    std::unique_lock<std::mutex> lock(mutex_);
     for (;;) {
-      std::unique_lock<std::mutex> lock(mutex_);
       changed_.wait(lock, [this] { return ends_ || waiting_; });
       if (ends_) return;
-      const Value value = std::move(*waiting_);
-      waiting_.reset();
-      lock.unlock();
-      work_(value);
+      const std::uint64_t given = given_;
+      {
+        const Value value = std::move(*waiting_);
+        waiting_.reset();
+        lock.unlock();
+        work_(value);
+      }
+      lock.lock();
+      done_ = given;
+      changed_.notify_all();
     }
   }
 
@@ -59,6 +74,8 @@ class NewestOnly {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<Value> waiting_;  // guarded by mutex_
+  std::uint64_t given_ = 0;       // number of values that were passed; guarded by mutex_
+  std::uint64_t done_ = 0;        // given_ when the last value whose work is done was taken; guarded by mutex_
   bool ends_ = false;             // guarded by mutex_
   std::thread thread_;            // declared last, because it uses the members above
 };

@@ -145,6 +145,9 @@ std::vector<PairRule> ObstacleBodies::touchRulesAfter(const ObstacleEdits& edits
     }
     for (const auto& [name, obstacle] : edits.set) act(name, obstacle);
   };
+  const bool attaches = std::any_of(edits.set.begin(), edits.set.end(),
+                                    [](const auto& edit) { return edit.second.attachment != nullptr; });
+  if (!attaches && touch_.rules.empty()) return {};
   // Links that never move relative to an obstacle do not count, so a new model of a robot cannot exceed the limit.
   std::size_t count = 0;
   visit([&](const std::string&, const PlacedObstacle& obstacle) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <future>
 #include <vector>
 
@@ -28,6 +30,29 @@ TEST(NewestOnly, DropsTheValueThatWaitsWhenANewerOneArrives) {
   may_end.set_value();
   all_done.get_future().wait();
   EXPECT_EQ(done, std::vector<int>({1, 3}));
+}
+
+TEST(NewestOnly, WaitsForTheValuesThatWerePassedBefore) {
+  std::promise<void> begun, may_end;
+  std::atomic<int> done{0};
+  NewestOnly<int> thread([&](const int& value) {
+    if (value == 1) {
+      begun.set_value();
+      may_end.get_future().wait();
+    }
+    done = value;
+  });
+  thread.wait();  // nothing was passed
+  thread.give(1);
+  begun.get_future().wait();
+  thread.give(2);
+  auto waited = std::async(std::launch::async, [&] {
+    thread.wait();
+    return done.load();
+  });
+  EXPECT_EQ(waited.wait_for(std::chrono::milliseconds(20)), std::future_status::timeout) << "1 and 2 are not done";
+  may_end.set_value();
+  EXPECT_EQ(waited.get(), 2);
 }
 
 }  // namespace
