@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "bench/measure/median.h"
+#include "call.h"
 #include "bench/states/state_scene.h"
 #include "hgrid_proximity/adapters/srdf.h"
 #include "hgrid_proximity/queries/query.h"
@@ -50,19 +51,12 @@ BatchMeasurement race(const std::string& title, double duration, const Answer& s
     if (verdicts != expected) throw std::runtime_error("the verdicts of the node and of the library differ: " + title);
   }
   result.questions = verdicts.size();
-  result.hits = static_cast<std::size_t>(
-      std::count(verdicts.begin(), verdicts.end(), static_cast<std::uint8_t>(Verdict::hit)));
+  result.hits =
+      static_cast<std::size_t>(std::count(verdicts.begin(), verdicts.end(), static_cast<std::uint8_t>(Verdict::hit)));
   result.service_ms = medianOf(by_service);
   result.library_ms = medianOf(by_library);
   result.ratio = medianOf(ratios);
   return result;
-}
-
-/// Calls a service of the node. @throws std::runtime_error if it does not succeed
-template <class Service>
-void call(ros::ServiceClient& client, Service& service) {
-  if (!client.call(service)) throw std::runtime_error(client.getService() + " did not answer");
-  if (!service.response.success) throw std::runtime_error(client.getService() + ": " + service.response.code.text);
 }
 
 template <class Service>

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "bench/measure/median.h"
+#include "call.h"
 #include "running_node.h"
 #include "test/support/robots.h"
 
@@ -91,12 +92,6 @@ class Conflicts {
   ros::NodeHandle handle_;
   ros::Subscriber subscriber_;
 };
-
-template <class Service>
-void call(ros::ServiceClient& client, Service& service) {
-  if (!client.call(service)) throw std::runtime_error(client.getService() + " did not answer");
-  if (!service.response.success) throw std::runtime_error(client.getService() + ": " + service.response.code.text);
-}
 
 /// Returns a request that puts a sphere at a place.
 msg::ApplyObstacles sphereAt(double x, double y, double z) {

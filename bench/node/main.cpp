@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "batch_measurement.h"
+#include "change_measurement.h"
 #include "control_measurement.h"
 #include "map_measurement.h"
 #include "measurement.h"
@@ -40,12 +41,12 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "node_testbench");
   std::string json, commit = "unknown";
   double duration = 10.0;  // [s] measured time per world
-  std::string only;        // "" (everything), "worlds", "controls", "maps", "batches" or "guard"
+  std::string only;        // "" (everything), "worlds", "controls", "maps", "changes", "batches" or "guard"
   std::string title;       // part of the titles of the worlds that are measured
   for (int i = 1; i < argc; ++i) {
     const std::string option = argv[i];
     if (option == "--quick") duration = 4.0;
-    for (const char* part : {"worlds", "controls", "maps", "batches", "guard"}) {
+    for (const char* part : {"worlds", "controls", "maps", "changes", "batches", "guard"}) {
       if (option == std::string("--") + part) only = part;
     }
     if (option == "--world" && i + 1 < argc) only = "worlds", title = argv[++i];
@@ -74,6 +75,11 @@ int main(int argc, char** argv) {
       measurements.push_back(maps.resting);
       measurements.push_back(maps.replaced);
     }
+    std::optional<ChangeMeasurement> changes;
+    if (only.empty() || only == "changes") {
+      changes = measureChanges();
+      print(*changes);
+    }
     std::vector<BatchMeasurement> batches;
     if (only.empty() || only == "batches") {
       batches = measureBatches(duration);
@@ -84,7 +90,7 @@ int main(int argc, char** argv) {
       guard = measureGuard(duration);
       if (guard) print(*guard);
     }
-    if (!json.empty()) writeJson(json, commit, measurements, controls, batches, guard);
+    if (!json.empty()) writeJson(json, commit, measurements, controls, changes, batches, guard);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "node_testbench: %s\n", error.what());
     return 1;

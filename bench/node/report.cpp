@@ -101,6 +101,16 @@ void print(const ControlMeasurement& m) {
   std::fflush(stdout);
 }
 
+void print(const ChangeMeasurement& m) {
+  std::printf("\n%zu bodies, 100 of them move, and obstacles are added\n", m.bodies);
+  std::printf("  ticks without a change: median %.2f ms, longest %.2f ms\n", m.resting_ms, m.longest_resting_ms);
+  for (const ChangeMeasurement::Row& row : m.rows) {
+    std::printf("  %6zu added per request, requests %2zu: longest tick %7.2f ms, median time of the answer %7.2f ms\n",
+                row.added, row.requests, row.longest_tick_ms, row.answer_ms);
+  }
+  std::fflush(stdout);
+}
+
 void print(const BatchMeasurement& m) {
   std::printf("\n%s: %zu questions, %zu hits\n", m.title.c_str(), m.questions, m.hits);
   std::printf("  service %8.3f ms   library %8.3f ms   ratio %5.2f   %.2f million questions per second\n", m.service_ms,
@@ -115,8 +125,8 @@ void print(const GuardMeasurement& m) {
 }
 
 void writeJson(const std::string& file, const std::string& commit, const std::vector<Measurement>& measurements,
-               const std::optional<ControlMeasurement>& controls, const std::vector<BatchMeasurement>& batches,
-               const std::optional<GuardMeasurement>& guard) {
+               const std::optional<ControlMeasurement>& controls, const std::optional<ChangeMeasurement>& changes,
+               const std::vector<BatchMeasurement>& batches, const std::optional<GuardMeasurement>& guard) {
   std::ofstream out(file);
   out << "[\n  {\"kind\": \"run\", \"cpu\": " << quoted(processor()) << ", \"compiler\": " << quoted("gcc " __VERSION__)
       << ", \"commit\": " << quoted(commit) << "}";
@@ -148,6 +158,12 @@ void writeJson(const std::string& file, const std::string& commit, const std::ve
         << ", \"empty_callback_percent\": " << number(controls->receiving.control)
         << ", \"idle_percent\": " << number(controls->idle.node)
         << ", \"idle_empty_callback_percent\": " << number(controls->idle.control) << "}";
+  }
+  for (const ChangeMeasurement::Row& row : changes ? changes->rows : std::vector<ChangeMeasurement::Row>()) {
+    out << ",\n  {\"kind\": \"node change\", \"bodies\": " << changes->bodies
+        << ", \"resting_ms\": " << number(changes->resting_ms) << ", \"added\": " << row.added
+        << ", \"requests\": " << row.requests << ", \"longest_tick_ms\": " << number(row.longest_tick_ms)
+        << ", \"answer_ms\": " << number(row.answer_ms) << "}";
   }
   for (const BatchMeasurement& m : batches) {
     out << ",\n  {\"kind\": \"node batch\", \"title\": " << quoted(m.title) << ", \"questions\": " << m.questions

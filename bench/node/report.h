@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "batch_measurement.h"
+#include "change_measurement.h"
 #include "control_measurement.h"
 #include "guard_measurement.h"
 #include "map_measurement.h"
@@ -19,6 +20,7 @@ namespace bench {
 void print(const Measurement& measurement);
 void print(const MapMeasurement& measurement);
 void print(const ControlMeasurement& measurement);
+void print(const ChangeMeasurement& measurement);
 void print(const BatchMeasurement& measurement);
 void print(const GuardMeasurement& measurement);
 
@@ -26,8 +28,8 @@ void print(const GuardMeasurement& measurement);
 /// names the machine and the commit.
 /// @throws std::runtime_error if the file cannot be written
 void writeJson(const std::string& file, const std::string& commit, const std::vector<Measurement>& measurements,
-               const std::optional<ControlMeasurement>& controls, const std::vector<BatchMeasurement>& batches,
-               const std::optional<GuardMeasurement>& guard);
+               const std::optional<ControlMeasurement>& controls, const std::optional<ChangeMeasurement>& changes,
+               const std::vector<BatchMeasurement>& batches, const std::optional<GuardMeasurement>& guard);
 
 }  // namespace bench
 }  // namespace hgrid

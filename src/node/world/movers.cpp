@@ -3,6 +3,7 @@
 #include "node/world/movers.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace hgrid {
@@ -12,10 +13,11 @@ Member memberAt(const Pose& frame_from_body) {
   return {{}, frame_from_body.matrix() == Pose::Identity().matrix(), frame_from_body};
 }
 
-/// Makes room for one more element, so that the next push_back() does not allocate.
+/// Makes room for more elements, so that adding them does not allocate.
 template <class T>
-void makeRoom(std::vector<T>& elements) {
-  if (elements.size() == elements.capacity()) elements.reserve(std::max<std::size_t>(8, 2 * elements.size()));
+void makeRoom(std::vector<T>& elements, std::size_t more) {
+  const std::size_t needed = elements.size() + more;
+  if (needed > elements.capacity()) elements.reserve(std::max({std::size_t{8}, needed, 2 * elements.size()}));
 }
 
 }  // namespace
@@ -40,8 +42,8 @@ void Movers::Change::join(Body body, const Pose& frame_from_body) {
 }
 
 void Movers::add(const SourceId& source, Body body) {
-  makeRoom(movers_);
-  makeRoom(members_);
+  makeRoom(movers_, 1);
+  makeRoom(members_, 1);
   Mover mover{body.frame, source};
   mover.first = members_.size();
   mover.last = mover.first + 1;
@@ -68,31 +70,52 @@ void Movers::beginLost(const std::set<std::string>& names) noexcept {
 
 Movers::Change Movers::changeWithout(const std::function<bool(const SourceId&)>& chosen) const {
   Change change;
-  change.movers_.reserve(movers_.size());
-  change.members_.reserve(members_.size());
-  for (const Mover& mover : movers_) {
-    const auto first = members_.begin() + static_cast<std::ptrdiff_t>(mover.first);
-    const auto last = members_.begin() + static_cast<std::ptrdiff_t>(mover.last);
-    if (chosen(mover.source)) {
-      for (auto member = first; member != last; ++member) change.out_.push_back(member->body);
-      continue;
+  for (std::size_t i = 0; i < movers_.size(); ++i) {
+    const Mover& mover = movers_[i];
+    if (!chosen(mover.source)) continue;
+    change.leaving_.push_back(i);
+    for (std::size_t member = mover.first; member < mover.last; ++member) {
+      change.out_.push_back(members_[member].body);
     }
-    change.movers_.push_back(mover);
-    change.movers_.back().first = change.members_.size();
-    change.members_.insert(change.members_.end(), first, last);
-    change.movers_.back().last = change.members_.size();
   }
   return change;
 }
 
 void Movers::exchange(Change change) {
+  makeRoom(movers_, change.movers_.size());
+  makeRoom(members_, change.members_.size());
   const std::vector<BodyId> ids = scene_.exchange(change.out_, std::move(change.in_));
   // The code below does not allocate, so it cannot fail.
-  auto member = change.members_.end() - static_cast<std::ptrdiff_t>(ids.size());
-  for (const BodyId id : ids) (member++)->body = id;
-  movers_.swap(change.movers_);
-  members_.swap(change.members_);
+  if (!change.leaving_.empty()) remove(change.leaving_);
+  for (Mover& mover : change.movers_) {
+    mover.first += members_.size();
+    mover.last += members_.size();
+  }
+  for (std::size_t i = 0; i < ids.size(); ++i) change.members_[i].body = ids[i];
+  std::move(change.movers_.begin(), change.movers_.end(), std::back_inserter(movers_));
+  std::move(change.members_.begin(), change.members_.end(), std::back_inserter(members_));
   ++revision_;
+}
+
+/// Removes movers and their members. The others keep their order. @param leaving  indices of movers, ascending
+void Movers::remove(const std::vector<std::size_t>& leaving) noexcept {
+  auto next = leaving.begin();
+  std::size_t movers = 0, members = 0;  // how many are kept so far
+  for (std::size_t i = 0; i < movers_.size(); ++i) {
+    if (next != leaving.end() && *next == i) {
+      ++next;
+      continue;
+    }
+    Mover& mover = movers_[i];
+    const std::size_t first = members;
+    for (std::size_t member = mover.first; member < mover.last; ++member) members_[members++] = members_[member];
+    mover.first = first;
+    mover.last = members;
+    if (movers != i) movers_[movers] = std::move(mover);
+    ++movers;
+  }
+  movers_.erase(movers_.begin() + static_cast<std::ptrdiff_t>(movers), movers_.end());
+  members_.erase(members_.begin() + static_cast<std::ptrdiff_t>(members), members_.end());
 }
 
 }  // namespace hgrid

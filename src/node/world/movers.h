@@ -69,14 +69,16 @@ class Movers {
   std::uint64_t revision() const { return revision_; }
 
  private:
+  void remove(const std::vector<std::size_t>& leaving) noexcept;
+
   Scene& scene_;
   std::vector<Mover> movers_;
   std::vector<Member> members_;
   std::uint64_t revision_ = 0;
 };
 
-/// New movers and bodies that replace the old ones of a Movers object. They are built separately, so that exchange()
-/// can replace all of them at once.
+/// Movers that leave a Movers object, and new movers with their bodies. They are collected separately, so that
+/// exchange() can apply all of them at once.
 class Movers::Change {
  public:
   /// Makes room for further movers with one body each.
@@ -88,10 +90,11 @@ class Movers::Change {
 
  private:
   friend class Movers;
-  std::vector<Mover> movers_;
-  std::vector<Member> members_;  // the members of in_ come last; their `body` is not set yet
-  std::vector<BodyId> out_;      // bodies that leave the scene
-  std::vector<Body> in_;         // bodies that enter it
+  std::vector<std::size_t> leaving_;  // indices of the movers that leave, ascending
+  std::vector<BodyId> out_;           // bodies that leave the scene: those of leaving_
+  std::vector<Mover> movers_;         // those that are added; `first` and `last` are indices into members_
+  std::vector<Member> members_;       // their `body` is not set yet
+  std::vector<Body> in_;              // bodies that enter the scene: those of members_
 };
 
 }  // namespace hgrid

@@ -85,6 +85,19 @@ TEST_F(MoversTest, ReplaceTheBodiesOfOneSourceAndKeepThePosesOfTheOthers) {
   EXPECT_GT(movers_.revision(), before);
 }
 
+TEST_F(MoversTest, KeepTheMembersOfTheMoversThatMoveUp) {
+  const SourceId post = SourceId::ofObstacle("obstacle/post");
+  Movers::Change change = movers_.changeWithout([&](const SourceId& source) { return source == post; });
+  const SourceId box = SourceId::ofObstacle("obstacle/box");
+  change.add("world", box, bodyOf("obstacle/box"), shifted(2.0));
+  movers_.exchange(std::move(change));
+  EXPECT_EQ(listed(), (Lines{"shoulder: arm/shoulder arm/upper", "wrist: arm/wrist", "cart_base: cart/base",
+                             "world: obstacle/box"}));
+  EXPECT_EQ(movers_.members().size(), 5u);
+  EXPECT_EQ(movers_.members()[1].frame_from_body.translation().x(), 0.5);
+  EXPECT_EQ(movers_.members()[4].frame_from_body.translation().x(), 2.0);
+}
+
 TEST_F(MoversTest, RemoveAllSourcesOfAKind) {
   movers_.exchange(movers_.changeWithout([](const SourceId& source) { return source.kind == SourceKind::robot; }));
   EXPECT_EQ(listed(), (Lines{"world: obstacle/post"}));
