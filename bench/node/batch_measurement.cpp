@@ -13,8 +13,8 @@
 #include <stdexcept>
 
 #include "bench/measure/median.h"
-#include "call.h"
 #include "bench/states/state_scene.h"
+#include "call.h"
 #include "hgrid_proximity/adapters/srdf.h"
 #include "hgrid_proximity/queries/query.h"
 #include "running_node.h"
