@@ -11,10 +11,10 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 #include <thread>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -31,7 +31,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kTurns = 10;       // spans of time into which a comparison is divided
-constexpr double kLonger = 3.0;  // a 99th percentile needs many round trips
+constexpr double kLonger = 4.5;  // a 99th percentile needs many round trips
 constexpr double kCache = 10.0;  // [s] how long the node keeps transforms; this is also the default
 
 void sleepFor(double duration) { std::this_thread::sleep_for(std::chrono::duration<double>(duration)); }
@@ -159,35 +159,38 @@ class Caller {
   msg::QuerySphere question_;
 };
 
-/// Measures the round trips of two services, 200 per second of each. A random one of them is called first each time, so
-/// that /tf, which has nearly the same rate, and other programs delay both alike.
-std::pair<ServiceTimes, ServiceTimes> compareRoundTrips(const std::string& first, const std::string& second,
-                                                        double duration) {
-  Caller callers[] = {Caller(first), Caller(second)};
-  ServiceTimes trips[2];
-  std::vector<double> all[2];
+/// Measures the round trips of services, 133 per second of each. They are called in turn, and each turn has a random
+/// order, so that /tf and other programs delay all alike.
+std::vector<ServiceTimes> compareRoundTrips(const std::vector<std::string>& services, double duration) {
+  std::vector<Caller> callers(services.begin(), services.end());
+  std::vector<ServiceTimes> trips(services.size());
+  std::vector<std::vector<double>> all(services.size());
+  std::vector<std::size_t> order(services.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
   std::mt19937 random(1);
   auto due = Clock::now();
   for (int turn = 0; turn < kTurns; ++turn) {
-    std::vector<double> seconds[2];
+    std::vector<std::vector<double>> seconds(services.size());
     const auto end =
         Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(duration)) / kTurns;
-    for (int which = 0; Clock::now() < end; which = 1 - which) {
-      if (seconds[0].size() == seconds[1].size()) which = static_cast<int>(random() % 2);
-      due = std::max(due + std::chrono::microseconds(2500), Clock::now());
-      std::this_thread::sleep_until(due);
-      callers[which].call(seconds[which]);
+    while (Clock::now() < end) {
+      std::shuffle(order.begin(), order.end(), random);
+      for (const std::size_t which : order) {
+        due = std::max(due + std::chrono::microseconds(2500), Clock::now());
+        std::this_thread::sleep_until(due);
+        callers[which].call(seconds[which]);
+      }
     }
-    for (int which : {0, 1}) {
+    for (std::size_t which = 0; which < services.size(); ++which) {
       trips[which].p99_of_turns.push_back(spreadOf(seconds[which]).p99);
       all[which].insert(all[which].end(), seconds[which].begin(), seconds[which].end());
     }
   }
-  for (int which : {0, 1}) {
+  for (std::size_t which = 0; which < services.size(); ++which) {
     trips[which].all = spreadOf(all[which]);
     std::sort(trips[which].p99_of_turns.begin(), trips[which].p99_of_turns.end());
   }
-  return {trips[0], trips[1]};
+  return trips;
 }
 
 }  // namespace
@@ -203,11 +206,15 @@ ControlMeasurement measureControls(const Workload& workload, double duration) {
   Workload nearly_idle = workload;
   nearly_idle.rate = 1.0;
   result.idle = receiving(nearly_idle, duration);
-  // Both services are measured while the node makes ticks.
-  const Control control("service");
+  // All services are measured while the node makes ticks.
+  const Control control("service"), beside_tf("both");
   const RunningNode node(workload, kLonger * duration);
-  std::tie(result.empty_service, result.sphere) =
-      compareRoundTrips(control.name() + "/query_sphere", node.name() + "/query_sphere", kLonger * duration);
+  std::vector<std::string> services{control.name(), beside_tf.name(), node.name()};
+  for (std::string& service : services) service += "/query_sphere";
+  const std::vector<ServiceTimes> trips = compareRoundTrips(services, kLonger * duration);
+  result.empty_service = trips[0];
+  result.empty_service_beside_tf = trips[1];
+  result.sphere = trips[2];
   return result;
 }
 

@@ -30,7 +30,11 @@ struct ControlMeasurement {
   Spread relay;                ///< from the stamp of a cycle to the arrival of its last message, relayed by a control
   Receiving receiving;         ///< with the /tf of the workload
   Receiving idle;              ///< with one cycle of /tf per second
-  ServiceTimes empty_service, sphere;  ///< over a persistent connection: a control's empty service, ~query_sphere
+  ///@{
+  /// Over a persistent connection: the empty service of a control, the empty service of a control that also receives
+  /// /tf, ~query_sphere
+  ServiceTimes empty_service, empty_service_beside_tf, sphere;
+  ///@}
 };
 
 /// Measures each of the figures for `duration` [s].

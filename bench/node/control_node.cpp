@@ -41,8 +41,11 @@ int main(int argc, char** argv) {
     subscriber = node.subscribe<tf2_msgs::TFMessage>("/tf", 1000, ignore, hints);
   } else if (mode == "service") {
     service = own.advertiseService("query_sphere", answer);
+  } else if (mode == "both") {
+    subscriber = node.subscribe<tf2_msgs::TFMessage>("/tf", 1000, ignore, hints);
+    service = own.advertiseService("query_sphere", answer);
   } else {
-    ROS_FATAL("usage: node_testcontrol relay|ignore|service");
+    ROS_FATAL("usage: node_testcontrol relay|ignore|service|both");
     return 1;
   }
   ros::spin();

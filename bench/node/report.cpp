@@ -93,11 +93,13 @@ void print(const ControlMeasurement& m) {
   std::printf("  %-46s %10s %10s\n", "", "median ms", "p99 ms");
   std::printf("  %-46s %10.3f %10.3f\n", "stamp to arrival, relayed by a control", m.relay.median, m.relay.p99);
   print("round trip of an empty service", m.empty_service);
+  print("the same in a control that also receives /tf", m.empty_service_beside_tf);
   print("round trip of ~query_sphere", m.sphere);
   std::printf(
       "  receiving /tf, percent of one processor: the node %.2f, a control with an empty callback %.2f, ratio %.2f\n",
       m.receiving.node, m.receiving.control, m.receiving.node / m.receiving.control);
-  std::printf("  with one cycle of /tf per second: the node %.2f, the control %.2f\n", m.idle.node, m.idle.control);
+  std::printf("  with one cycle of /tf per second: the node %.2f, the control %.2f; ratio of the differences %.2f\n",
+              m.idle.node, m.idle.control, (m.receiving.node - m.idle.node) / (m.receiving.control - m.idle.control));
   std::fflush(stdout);
 }
 
@@ -152,6 +154,7 @@ void writeJson(const std::string& file, const std::string& commit, const std::ve
     };
     spread("relay", controls->relay);
     spread("empty service", controls->empty_service.all);
+    spread("empty service beside /tf", controls->empty_service_beside_tf.all);
     spread("query_sphere", controls->sphere.all);
     out << ",\n  {\"kind\": \"node control\", \"world\": " << quoted(controls->title)
         << ", \"part\": \"receiving\", \"percent\": " << number(controls->receiving.node)
