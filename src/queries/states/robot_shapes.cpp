@@ -13,7 +13,20 @@
 namespace hgrid {
 namespace {
 
-constexpr float kUnit = 6e-8f;  // relative rounding error of one float operation
+constexpr float kUnit = 6e-8f;      // relative rounding error of one float operation
+constexpr float kMostWaste = 8.0f;  // volume of the box of a cluster / volume of the boxes of its shapes, at most
+
+/// Returns the axis-aligned box around a tilted one.
+Eigen::AlignedBox3f boundsOf(const TiltedBox<float>& box) {
+  Eigen::Vector3f center, reach;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    center[row] = box.center[k];
+    reach[row] = 0.0f;
+    for (std::size_t axis = 0; axis < 3; ++axis) reach[row] += std::abs(box.axes[axis][k]) * box.half[axis];
+  }
+  return {center - reach, center + reach};
+}
 
 /// Returns the part of a frame's name that comes before the name of the link; empty if there is none.
 std::string prefixOf(const std::string& frame, const std::string& link) {
@@ -77,6 +90,7 @@ RobotShapes::RobotShapes(const Snapshot& snapshot, const Kinematics& kinematics,
   chooseGroup(kinematics, options.group);
   chooseRobots(snapshot, options.robots);
   addShapes(snapshot, scope);
+  addClusters();
   addSelfPairs(snapshot.structure().filter);
 }
 
@@ -215,6 +229,26 @@ void RobotShapes::addShapesOf(const Snapshot& snapshot, const QueryScope& scope,
   }
   std::stable_sort(shapes_.begin() + before, shapes_.end(),
                    [](const RobotShape& a, const RobotShape& b) { return a.group < b.group; });
+}
+
+/// Makes the clusters. A shape joins the cluster before it if that does not make the searched volume much larger.
+void RobotShapes::addClusters() {
+  Eigen::AlignedBox3f bounds;  // of the last cluster, in the frame of its group
+  float volumes = 0.0f;        // [m3] sum of those of its shapes
+  for (std::uint32_t i = 0; i < counting_; ++i) {
+    const Eigen::AlignedBox3f shape = boundsOf(shapes_[i].in_group);
+    const bool joins = i > 0 && shapes_[i].group == shapes_[i - 1].group &&
+                       i - clusters_.back().first < ShapeCluster::kMost &&
+                       bounds.merged(shape).volume() <= kMostWaste * (volumes + shape.volume());
+    if (!joins) {
+      clusters_.push_back({i, i});
+      bounds.setEmpty();
+      volumes = 0.0f;
+    }
+    clusters_.back().last = i + 1;
+    bounds.extend(shape);
+    volumes += shape.volume();
+  }
 }
 
 void RobotShapes::addSelfPairs(const PairFilter& filter) {

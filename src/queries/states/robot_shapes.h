@@ -39,6 +39,13 @@ struct FourShapes {
   Four min[3], max[3];  ///< [m] corners of the axis-aligned box around `box`
 };
 
+/// Shapes of one rigid group that are close together, so that one search of the world finds what is near any of them.
+struct ShapeCluster {
+  static constexpr std::uint32_t kMost = 16;  ///< largest number of shapes in a cluster
+
+  std::uint32_t first, last;  ///< indices into RobotShapes::shapes(): first .. last - 1
+};
+
 /// Two shapes of the robot that must not touch each other. They are indices into RobotShapes::shapes().
 struct SelfPair {
   std::uint32_t first, second;
@@ -60,6 +67,8 @@ class RobotShapes {
   const std::vector<RobotShape>& shapes() const { return shapes_; }
   /// Returns how many shapes are of bodies that count.
   std::size_t counting() const { return counting_; }
+  /// Returns the clusters of the shapes of bodies that count, in the order of the shapes. Each shape is in one of them.
+  const std::vector<ShapeCluster>& clusters() const { return clusters_; }
   const std::vector<SelfPair>& selfPairs() const { return self_pairs_; }
   /// Returns whether the joints of the robot move this body.
   bool moves(std::uint32_t body) const { return body < is_own_.size() && is_own_[body]; }
@@ -78,11 +87,13 @@ class RobotShapes {
   void chooseRobots(const Snapshot& snapshot, const std::vector<std::string>& robots);
   void addShapes(const Snapshot& snapshot, const QueryScope& scope);
   void addShapesOf(const Snapshot& snapshot, const QueryScope& scope, bool counts);
+  void addClusters();
   void addSelfPairs(const PairFilter& filter);
 
   std::vector<RobotBody> bodies_;
   std::vector<RobotShape> shapes_;  // sorted by rigid group, so that place() reads each of them once
   std::size_t counting_ = 0;
+  std::vector<ShapeCluster> clusters_;
   std::vector<SelfPair> self_pairs_;
   std::vector<bool> is_own_;  // by index of the body
 };

@@ -100,7 +100,7 @@ void StateSearch::findAmong(std::size_t lane, const NearShapes* begin, const Nea
     } else {
       const TiltedBox<float> other =
           near.with == With::self ? robot.boxOf(near.other) : world_.shapes()[near.other].box;
-      const Separation<float> apart = separationOf(robot.boxOf(near.own), other);
+      const Separation<float> apart = separationOf(robot.boxOf(near.own), other, near.reach);
       if (!mayReach(apart, near.reach)) continue;
       near.gap = apart.along_faces;
     }
@@ -124,7 +124,7 @@ void StateSearch::findSelf() {
     const FourShapes &a = scratch_.placed[pair.first], &b = scratch_.placed[pair.second];
     const unsigned lanes = overlapping(a, b, reach) & open_;
     if (lanes == 0) continue;
-    const Separation<Four> apart = separationOf(a.box, b.box);
+    const Separation<Four> apart = separationOf(a.box, b.box, reach);
     forEachLane(lanes, [&](std::size_t lane) {
       if (!mayReach({apart.along_faces[lane], apart.along_edges[lane]}, reach[lane])) return;
       consider(lane, {apart.along_faces[lane], reach[lane], With::self, pair.first, pair.second,
@@ -151,7 +151,7 @@ void StateSearch::findInFewShapes() {
     for (std::uint32_t own = 0; own < robot_.counting(); ++own) {
       const Four& reach = scratch_.shape_reach[own];
       forEachLane(overlapping(scratch_.placed[own], world_.boundsOf(other), reach) & open_, [&](std::size_t lane) {
-        const Separation<float> apart = separationOf(robotIn(lane).boxOf(own), shape.box);
+        const Separation<float> apart = separationOf(robotIn(lane).boxOf(own), shape.box, reach[lane]);
         if (!mayReach(apart, reach[lane]) || robotIn(lane).allowed(own, shape.body)) return;
         consider(lane, {apart.along_faces, reach[lane], With::shape, own, other, 0});
       });
@@ -161,21 +161,41 @@ void StateSearch::findInFewShapes() {
 
 void StateSearch::findInGrid() {
   forEachLane(open_, [&](std::size_t lane) {
-    for (std::uint32_t own = static_cast<std::uint32_t>(robot_.counting()); own-- > 0 && isOpen(lane);) {
-      const float reach = roundedUp(std::min<double>(limit_[lane], scratch_.shape_reach[own][lane]));
-      Aabb bounds = robotIn(lane).boundsOf(own);
-      if (reach > 0.0f) bounds = grown(bounds, reach);
-      world_.overlapping(bounds, scratch_.found);
-      if (scratch_.found.empty()) continue;
-      const TiltedBox<float> box = robotIn(lane).boxOf(own);
-      for (const ProxyId other : scratch_.found) {
-        const WorldShape& shape = world_.shapes()[other];
-        const Separation<float> apart = separationOf(box, shape.box);
-        if (!mayReach(apart, reach) || robotIn(lane).allowed(own, shape.body)) continue;
-        consider(lane, {apart.along_faces, reach, With::shape, own, other, 0});
-      }
+    for (std::size_t cluster = robot_.clusters().size(); cluster-- > 0 && isOpen(lane);) {
+      findNearCluster(lane, robot_.clusters()[cluster]);
     }
   });
+}
+
+/// Finds what is near some shapes of the robot, with one search of the grid.
+void StateSearch::findNearCluster(std::size_t lane, const ShapeCluster& cluster) {
+  const RobotInState& robot = robotIn(lane);
+  const float limit = roundedUp(limit_[lane]);
+  std::array<Aabb, ShapeCluster::kMost> searched;  // for each shape: its box grown by its reach
+  Aabb all;
+  for (std::uint32_t own = cluster.first; own < cluster.last; ++own) {
+    const float reach = std::min(limit, scratch_.shape_reach[own][lane]);
+    Aabb& bounds = searched[own - cluster.first];
+    bounds = robot.boundsOf(own);
+    if (reach > 0.0f) bounds = grown(bounds, reach);
+    all = own == cluster.first ? bounds : Aabb{all.min.cwiseMin(bounds.min), all.max.cwiseMax(bounds.max)};
+  }
+  world_.overlapping(all, scratch_.found);
+  if (scratch_.found.empty()) return;
+  const bool is_single = cluster.last - cluster.first == 1;
+  for (std::uint32_t own = cluster.last; own-- > cluster.first && isOpen(lane);) {
+    const float reach = std::min(limit, scratch_.shape_reach[own][lane]);
+    const Aabb& bounds = searched[own - cluster.first];
+    std::optional<TiltedBox<float>> box;
+    for (const ProxyId other : scratch_.found) {
+      if (!is_single && !overlap(bounds, world_.boundsOf(other))) continue;
+      if (!box) box = robot.boxOf(own);
+      const WorldShape& shape = world_.shapes()[other];
+      const Separation<float> apart = separationOf(*box, shape.box, reach);
+      if (!mayReach(apart, reach) || robot.allowed(own, shape.body)) continue;
+      consider(lane, {apart.along_faces, reach, With::shape, own, other, 0});
+    }
+  }
 }
 
 /// Uses two shapes whose boxes are near each other. If spheres inside them meet, they are in contact. Otherwise they
@@ -363,7 +383,7 @@ void StateSearch::measureMap(std::size_t lane, const NearShapes& near, double li
       at.cell.center[k] = static_cast<float>(center[k]);
       at.cell.half[k] = half_side;
     }
-    const Separation<float> apart = separationOf(at.own_box, at.cell);
+    const Separation<float> apart = separationOf(at.own_box, at.cell, roundedUp(at.limit));
     at.near.gap = apart.along_faces;
     if (static_cast<double>(apart.along_faces) > at.limit) return at.limit;
     if (at.limit == 0.0 && apart.along_edges > 0.0f) return at.limit;

@@ -129,6 +129,7 @@ class StateSearch {
   void findSelf();
   void findInFewShapes();
   void findInGrid();
+  void findNearCluster(std::size_t lane, const ShapeCluster& cluster);
   void findFarFromMaps();
   bool isFarFromMap(std::size_t lane, std::size_t map, std::size_t own) const;
   void findPlanesAndMaps(std::size_t lane);
