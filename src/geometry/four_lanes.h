@@ -32,6 +32,15 @@ inline Four least(Four a, Four b) { return a < b ? a : b; }
 inline Four greatest(Four a, Four b) { return a > b ? a : b; }
 #endif
 
+/// Returns one bit for each lane of a result of a comparison of two Four.
+inline unsigned bitsOf(const FourCounts& lanes) {
+#ifdef __SSE2__
+  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(lanes)));
+#else
+  return (lanes[0] & 1u) | (lanes[1] & 2u) | (lanes[2] & 4u) | (lanes[3] & 8u);
+#endif
+}
+
 /// Returns the square root of each value.
 inline Four squareRoot(Four values) {
 #if defined(__SSE2__)

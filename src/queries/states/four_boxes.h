@@ -6,11 +6,6 @@
 
 namespace hgrid {
 
-/// Returns one bit for each lane in which all bits of `lanes` are set.
-inline unsigned bitsOf(const FourCounts& lanes) {
-  return (lanes[0] & 1u) | (lanes[1] & 2u) | (lanes[2] & 4u) | (lanes[3] & 8u);
-}
-
 /// Returns for each lane whether the axis-aligned boxes of two shapes are at most `by` [m] apart along each axis.
 inline unsigned overlapping(const FourShapes& a, const FourShapes& b, const Four& by) {
   auto lanes = (a.min[0] <= b.max[0] + by) & (b.min[0] <= a.max[0] + by);

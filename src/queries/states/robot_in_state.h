@@ -55,12 +55,12 @@ class RobotInState {
     return measure(shape, other.solid.get(), snapshot.poses()[body].world_from_body * other.body_from_shape,
                    other.padding, up_to);
   }
-  /// Computes where the spheres inside a shape are, relative to the origin of the snapshot.
-  void placeSpheres(std::size_t shape, FourSpheres& placed) const {
+  /// Returns the spheres inside a shape, relative to the origin of the snapshot.
+  FourSpheres spheresOf(std::size_t shape) const {
     const RobotShape& own = robot.shapes()[shape];
     Pose local_from_group = groups_[own.group].of(lane_);
     local_from_group.translation() -= snapshot.origin();
-    placed.fill(own.spheres, local_from_group);
+    return own.spheres.at(local_from_group);
   }
   /// Returns whether the pair filter switches off a shape of the robot and a body.
   bool allowed(std::size_t shape, std::uint32_t body) const {

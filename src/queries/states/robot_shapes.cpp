@@ -224,7 +224,7 @@ void RobotShapes::addShapesOf(const Snapshot& snapshot, const QueryScope& scope,
       const Pose group_from_shape = own.group_from_body * shapes[i].body_from_shape;
       const TiltedBox<float> box = tiltedBoxOf(shapes[i], group_from_shape, 1e-6);
       shapes_.push_back({own.body, i, own.group, group_from_shape, &shapes[i], box, coverOf(shapes[i], box),
-                         spheresInside(shapes[i], group_from_shape)});
+                         FourSpheres(spheresInside(shapes[i], group_from_shape))});
     }
   }
   std::stable_sort(shapes_.begin() + before, shapes_.end(),

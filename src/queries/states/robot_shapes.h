@@ -8,6 +8,7 @@
 #include "hgrid_proximity/geometry/sphere.h"
 #include "hgrid_proximity/queries/query_scope.h"
 #include "hgrid_proximity/queries/state_checker.h"
+#include "queries/states/four_spheres.h"
 #include "queries/states/sphere_cover.h"
 #include "queries/states/tilted_box.h"
 
@@ -27,10 +28,10 @@ struct RobotShape {
   std::uint32_t body, shape;  ///< index of the body, and index of the shape among the shapes of the body
   std::uint32_t group;        ///< rigid group of the robot
   Pose group_from_shape;
-  const BodyShape* what;        ///< the shape itself; the snapshot keeps it alive
-  TiltedBox<float> in_group;    ///< box around the padded shape, in the frame of the group
-  SphereCover cover;            ///< spheres that contain the padded shape
-  std::vector<Sphere> spheres;  ///< spheres inside the padded shape, in the frame of the group [m]
+  const BodyShape* what;      ///< the shape itself; the snapshot keeps it alive
+  TiltedBox<float> in_group;  ///< box around the padded shape, in the frame of the group
+  SphereCover cover;          ///< spheres that contain the padded shape
+  FourSpheres spheres;        ///< spheres inside the padded shape, in the frame of the group
 };
 
 /// A shape in four states of the robot. The boxes are relative to the origin of the snapshot.

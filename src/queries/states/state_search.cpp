@@ -66,8 +66,11 @@ void StateSearch::place(unsigned open, bool first) {
   for (auto& near : scratch_.near) near.clear();
   for (auto& kept : scratch_.kept) kept.clear();
   for (auto& found : scratch_.pairs) found.clear();
-  std::fill(scratch_.spheres_known.begin(), scratch_.spheres_known.end(), std::uint8_t{0});
-  robot_.place(scratch_.groups, first ? nullptr : scratch_.changing.data(), snapshot_.origin(), scratch_.placed);
+  const std::uint8_t* const changing = first ? nullptr : scratch_.changing.data();
+  for (std::size_t i = 0; i < robot_.shapes().size(); ++i) {
+    if (changing == nullptr || changing[robot_.shapes()[i].group] != 0) scratch_.spheres_known[i] = 0;
+  }
+  robot_.place(scratch_.groups, changing, snapshot_.origin(), scratch_.placed);
 }
 
 void StateSearch::findAll(unsigned lanes) {
@@ -215,26 +218,23 @@ void StateSearch::consider(std::size_t lane, const NearShapes& near) {
 const FourSpheres& StateSearch::spheresOf(std::size_t lane, std::size_t own) {
   FourSpheres& spheres = scratch_.spheres[4 * own + lane];
   if ((scratch_.spheres_known[own] >> lane & 1u) == 0) {
-    robotIn(lane).placeSpheres(own, spheres);
+    spheres = robotIn(lane).spheresOf(own);
     scratch_.spheres_known[own] = static_cast<std::uint8_t>(scratch_.spheres_known[own] | 1u << lane);
   }
   return spheres;
 }
 
 bool StateSearch::haveSpheresInCommon(std::size_t lane, const NearShapes& near) {
-  if (robot_.shapes()[near.own].spheres.empty()) return false;
+  if (robot_.shapes()[near.own].spheres.count == 0) return false;
   if (near.with != With::self) {
     const SmallSphere *const begin = world_.spheresOf(near.other), *const end = world_.spheresOf(near.other + 1);
     if (begin == end) return false;
     const FourSpheres& own = spheresOf(lane, near.own);
     return std::any_of(begin, end, [&](const SmallSphere& sphere) { return own.meet(sphere); });
   }
-  if (robot_.shapes()[near.other].spheres.empty()) return false;
-  const FourSpheres &own = spheresOf(lane, near.own), &other = spheresOf(lane, near.other);
-  for (std::size_t i = 0; i < other.count; ++i) {
-    if (own.meet(other[i])) return true;
-  }
-  return false;
+  if (robot_.shapes()[near.other].spheres.count == 0) return false;
+  const FourSpheres& own = spheresOf(lane, near.own);
+  return own.meet(spheresOf(lane, near.other));
 }
 
 /// Measures the shapes that are most likely in contact, before the world is searched.
