@@ -27,7 +27,7 @@ constexpr std::size_t kBodies = 10000;
 constexpr double kHalfSide = 30.0;  // [m] half the side of the cube that the added obstacles are in
 
 /// Returns a request that adds boxes at random places.
-msg::ApplyObstacles addBoxes(std::size_t count, const std::string& prefix, std::mt19937& random) {
+msg::ApplyObstacles requestToAddBoxes(std::size_t count, const std::string& prefix, std::mt19937& random) {
   std::uniform_real_distribution<double> place(-kHalfSide, kHalfSide);
   msg::ApplyObstacles change;
   for (std::size_t i = 0; i < count; ++i) {
@@ -78,10 +78,10 @@ class TickTimes {
 }  // namespace
 
 ChangeMeasurement measureChanges() {
-  // The timings of ~status cover 500 ticks, which are 5 s, and are computed once per second.
-  constexpr double kForgets = 8.0, kComputes = 1.5;  // [s]
+  constexpr double kSettle = 8.0;  // [s] ~status then covers only ticks after the last request: 500 ticks, 5 s
+  constexpr double kUpdate = 1.5;  // [s] ~status computes its timings once per second
   const Workload workload = freeBodies(kBodies, 100, kRate);
-  const RunningNode node(workload, kForgets);
+  const RunningNode node(workload, kSettle);
   TickTimes ticks(node.name());
   ros::NodeHandle handle;
   ros::ServiceClient apply = handle.serviceClient<msg::ApplyObstacles>(node.name() + "/apply_obstacles", true);
@@ -89,7 +89,7 @@ ChangeMeasurement measureChanges() {
 
   ChangeMeasurement result;
   result.bodies = kBodies;
-  ros::WallDuration(kForgets).sleep();
+  ros::WallDuration(kSettle).sleep();
   result.resting_ms = 1e3 * ticks.newest().median;
   result.longest_resting_ms = 1e3 * ticks.newest().max;
   const std::size_t added[] = {1, 1000, 10000}, requests[] = {20, 3, 1};
@@ -97,15 +97,15 @@ ChangeMeasurement measureChanges() {
     std::vector<double> answers;
     for (std::size_t i = 0; i < requests[row]; ++i) {
       msg::ApplyObstacles change =
-          addBoxes(added[row], "row" + std::to_string(row) + "_" + std::to_string(i) + "_", random);
+          requestToAddBoxes(added[row], "row" + std::to_string(row) + "_" + std::to_string(i) + "_", random);
       const ros::WallTime begin = ros::WallTime::now();
       call(apply, change);
       answers.push_back(1e3 * (ros::WallTime::now() - begin).toSec());
       ros::WallDuration(0.1).sleep();
     }
-    ros::WallDuration(kComputes).sleep();
+    ros::WallDuration(kUpdate).sleep();
     result.rows.push_back({added[row], requests[row], 1e3 * ticks.newest().max, medianOf(answers)});
-    ros::WallDuration(kForgets).sleep();
+    ros::WallDuration(kSettle).sleep();
   }
   return result;
 }

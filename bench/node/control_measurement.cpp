@@ -159,8 +159,8 @@ class Caller {
   msg::QuerySphere question_;
 };
 
-/// Measures the round trips of services, 133 per second of each. They are called in turn, and each turn has a random
-/// order, so that /tf and other programs delay all alike.
+/// Measures the round trips of services, 400 calls per second in total. Each round calls every service once, in random
+/// order, so that /tf and other programs delay all services alike.
 std::vector<ServiceTimes> compareRoundTrips(const std::vector<std::string>& services, double duration) {
   std::vector<Caller> callers(services.begin(), services.end());
   std::vector<ServiceTimes> trips(services.size());
@@ -207,7 +207,7 @@ ControlMeasurement measureControls(const Workload& workload, double duration) {
   nearly_idle.rate = 1.0;
   result.idle = receiving(nearly_idle, duration);
   // All services are measured while the node makes ticks.
-  const Control control("service"), beside_tf("both");
+  const Control control("service"), beside_tf("service_and_tf");
   const RunningNode node(workload, kLonger * duration);
   std::vector<std::string> services{control.name(), beside_tf.name(), node.name()};
   for (std::string& service : services) service += "/query_sphere";

@@ -30,11 +30,10 @@ struct ControlMeasurement {
   Spread relay;                ///< from the stamp of a cycle to the arrival of its last message, relayed by a control
   Receiving receiving;         ///< with the /tf of the workload
   Receiving idle;              ///< with one cycle of /tf per second
-  ///@{
-  /// Over a persistent connection: the empty service of a control, the empty service of a control that also receives
-  /// /tf, ~query_sphere
-  ServiceTimes empty_service, empty_service_beside_tf, sphere;
-  ///@}
+  // Round trips over persistent connections:
+  ServiceTimes empty_service;            ///< service of a control that does nothing
+  ServiceTimes empty_service_beside_tf;  ///< the same, in a control that also receives /tf
+  ServiceTimes sphere;                   ///< ~query_sphere
 };
 
 /// Measures each of the figures for `duration` [s].

@@ -41,11 +41,11 @@ int main(int argc, char** argv) {
     subscriber = node.subscribe<tf2_msgs::TFMessage>("/tf", 1000, ignore, hints);
   } else if (mode == "service") {
     service = own.advertiseService("query_sphere", answer);
-  } else if (mode == "both") {
+  } else if (mode == "service_and_tf") {
     subscriber = node.subscribe<tf2_msgs::TFMessage>("/tf", 1000, ignore, hints);
     service = own.advertiseService("query_sphere", answer);
   } else {
-    ROS_FATAL("usage: node_testcontrol relay|ignore|service|both");
+    ROS_FATAL("usage: node_testcontrol relay|ignore|service|service_and_tf");
     return 1;
   }
   ros::spin();

@@ -164,7 +164,8 @@ void writeJson(const std::string& file, const std::string& commit, const std::ve
   }
   for (const ChangeMeasurement::Row& row : changes ? changes->rows : std::vector<ChangeMeasurement::Row>()) {
     out << ",\n  {\"kind\": \"node change\", \"bodies\": " << changes->bodies
-        << ", \"resting_ms\": " << number(changes->resting_ms) << ", \"added\": " << row.added
+        << ", \"resting_ms\": " << number(changes->resting_ms)
+        << ", \"longest_resting_ms\": " << number(changes->longest_resting_ms) << ", \"added\": " << row.added
         << ", \"requests\": " << row.requests << ", \"longest_tick_ms\": " << number(row.longest_tick_ms)
         << ", \"answer_ms\": " << number(row.answer_ms) << "}";
   }

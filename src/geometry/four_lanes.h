@@ -32,7 +32,8 @@ inline Four least(Four a, Four b) { return a < b ? a : b; }
 inline Four greatest(Four a, Four b) { return a > b ? a : b; }
 #endif
 
-/// Returns one bit for each lane of a result of a comparison of two Four.
+/// Returns a mask: bit i is set if lane i is true. `lanes` must be the result of a comparison: each lane is 0 or all
+/// ones.
 inline unsigned bitsOf(const FourCounts& lanes) {
 #ifdef __SSE2__
   return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(lanes)));

@@ -52,13 +52,12 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       path_topics_(node, commons_, guard_, [this] { return tick_loop_.newest(); }),
       services_(
           query_threads_.privateNode(), batch_threads_.privateNode(), admin_thread_.privateNode(), commons_,
-          [this] { return tick_loop_.newest(); },
-          [this](const TickJobs::Job& job) { return changeWorld(job); }, world_.transforms().lookup(),
-          history_, loading_, state_, guard_, stopwatch_, sketch_),
+          [this] { return tick_loop_.newest(); }, [this](const TickJobs::Job& job) { return changeWorld(job); },
+          world_.transforms().lookup(), history_, loading_, state_, guard_, stopwatch_, sketch_),
       moveit_(
           admin_thread_.node(), query_threads_.node(), commons_, loading_.mapSource(), jobs_,
-          [this](const TickJobs::Job& job) { return changeWorld(job); },
-          [this] { return tick_loop_.newest(); }, world_.transforms().lookup(), [this] { return isEnding(); }),
+          [this](const TickJobs::Job& job) { return changeWorld(job); }, [this] { return tick_loop_.newest(); },
+          world_.transforms().lookup(), [this] { return isEnding(); }),
       trackers_(
           admin_thread_.node(), commons_, world_.transforms().lookup(), [this] { return tick_loop_.newest(); }, jobs_),
       diagnostics_(
@@ -67,8 +66,7 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       marker_pace_(commons_.settings.params.marker_rate),
       housekeeping_(admin_thread_.node(), marker_pace_.period(), ChoreList(chores(), commons_.ledger)),
       reconfigure_(
-          admin_thread_.privateNode(), commons_.settings,
-          [this](const TickJobs::Job& job) { return changeWorld(job); },
+          admin_thread_.privateNode(), commons_.settings, [this](const TickJobs::Job& job) { return changeWorld(job); },
           [this](const Params& params) { takeOver(params); }, commons_.ledger) {
   tick_loop_.setSteps(tickSteps());
   housekeeping_.start();
@@ -97,8 +95,7 @@ void ProximityNode::stop() {
   admin_thread_.stop();
 }
 
-/// Changes the world in a tick, see ChangeWorld. Waits until ~bodies and ~rules show the change, so that a client finds
-/// it there when the answer arrives.
+/// Implements ChangeWorld. A client finds the change in ~bodies and ~rules when the answer arrives.
 std::shared_ptr<const Tick> ProximityNode::changeWorld(const TickJobs::Job& job) {
   std::shared_ptr<const Tick> tick = tick_loop_.tickAfter(job);
   publishers_.waitForStructure();

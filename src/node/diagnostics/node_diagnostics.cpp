@@ -132,6 +132,11 @@ void NodeDiagnostics::ticks(DiagnosticStatusWrapper& status) {
                                                      name(health.failed_distances->code()) + " " +
                                                      health.failed_distances->what());
   }
+  if (health.failed_structure) {
+    status.mergeSummary(DiagnosticStatus::ERROR, std::string("~bodies and ~rules could not be published: ") +
+                                                     name(health.failed_structure->code()) + " " +
+                                                     health.failed_structure->what());
+  }
   if (health.longest_wait > kLongestWait) {
     status.mergeSummary(DiagnosticStatus::WARN,
                         "the distance of a pair was not measured for " + std::to_string(health.longest_wait) +

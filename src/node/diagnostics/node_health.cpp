@@ -22,6 +22,11 @@ void NodeHealth::noteDistances(const std::optional<Refusal>& fault) {
   report_.failed_distances = fault;
 }
 
+void NodeHealth::noteStructure(const std::optional<Refusal>& fault) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  report_.failed_structure = fault;
+}
+
 void NodeHealth::noteLongestWait(std::uint64_t ticks) {
   const std::lock_guard<std::mutex> lock(mutex_);
   report_.longest_wait = ticks;

@@ -29,6 +29,7 @@ struct HealthReport {
   std::uint64_t failed_ticks = 0;           ///< number of failed ticks since the start of the node
   std::optional<Refusal> failed_tick;       ///< why the last tick failed; nullopt if it did not
   std::optional<Refusal> failed_distances;  ///< why the last measurement of distances failed; nullopt if it did not
+  std::optional<Refusal> failed_structure;  ///< why ~bodies and ~rules could not be published; nullopt if they were
   std::uint64_t longest_wait = 0;           ///< [ticks] see PairDistances::longest_wait
   std::map<std::string, std::string> missing_threads;  ///< by parameter: how many of its threads could not be created
   std::vector<std::string> conflicts;                  ///< frames that are published on both /tf and /tf_static
@@ -47,6 +48,8 @@ class NodeHealth {
   void noteLateness(bool late);
   /// Call this after each tick whose distances were measured. @param fault  why that failed; nullopt if it did not fail
   void noteDistances(const std::optional<Refusal>& fault);
+  /// Call this after ~bodies and ~rules were to be published. @param fault  why that failed; nullopt if it did not fail
+  void noteStructure(const std::optional<Refusal>& fault);
   /// @param ticks  the largest number of successive ticks in which the distance of a pair was not measured
   void noteLongestWait(std::uint64_t ticks);
   /// @param frames  all frames that are published on both /tf and /tf_static. A frame is never removed from this list.

@@ -7,7 +7,7 @@ namespace hgrid {
 Publishers::Publishers(ros::NodeHandle tick_node, ros::NodeHandle admin_node, Commons& commons,
                        const Stopwatch& stopwatch, const QuerySketch& sketch)
     : streams_(tick_node, commons, stopwatch),
-      structure_(tick_node, commons.settings.params, commons.ledger),
+      structure_(tick_node, commons),
       distances_(tick_node, commons),
       markers_(admin_node, sketch) {}
 

@@ -27,7 +27,8 @@ class Publishers {
   /// Publishes ~events, ~pairs and ~status. Starts to publish ~bodies and ~rules if they changed. The tick thread calls
   /// this.
   void publishTick(const std::shared_ptr<const Tick>& tick);
-  /// Waits until ~bodies and ~rules of the ticks so far are published. Any thread except the tick thread may call this.
+  /// Waits until ~bodies and ~rules show the newest published tick, see StructurePublisher::wait(). Any thread except
+  /// the tick thread may call this.
   void waitForStructure() { structure_.wait(); }
   /// Starts to measure and publish ~distances, see DistancesPublisher::publish(). The tick thread calls this.
   std::optional<std::chrono::nanoseconds> publishDistances(const std::shared_ptr<const Tick>& tick);

@@ -8,21 +8,27 @@
 
 namespace hgrid {
 
-StructurePublisher::StructurePublisher(ros::NodeHandle& private_node, const Params& params, Ledger& ledger)
-    : params_(params),
+StructurePublisher::StructurePublisher(ros::NodeHandle& private_node, Commons& commons)
+    : commons_(commons),
       bodies_(private_node.advertise<msg::Bodies>("bodies", 1, true)),
       rules_(private_node.advertise<msg::Rules>("rules", 1, true)),
-      thread_([this, &ledger](const std::shared_ptr<const Tick>& tick) {
-        const auto failure = guarded(ledger, "structure.failed", [&] {
-          bodies_.publish(boost::make_shared<msg::Bodies>(bodiesMessage(*tick)));
-          rules_.publish(boost::make_shared<msg::Rules>(rulesMessage(*tick, params_)));
-        });
+      thread_([this](const std::shared_ptr<const Tick>& tick) {
+        const auto failure = guarded(commons_.ledger, "structure.failed", [&] { publishNow(*tick); });
+        commons_.health.noteStructure(failure);
         if (failure) failed_ = true;
       }) {}
 
 void StructurePublisher::publish(const std::shared_ptr<const Tick>& tick) {
   const bool failed = failed_.exchange(false);
   if (watch_.changed(*tick) || failed) thread_.give(tick);
+}
+
+void StructurePublisher::publishNow(const Tick& tick) {
+  // Both first: if one cannot be made, the next tick would publish the other one again.
+  const auto bodies = boost::make_shared<msg::Bodies>(bodiesMessage(tick));
+  const auto rules = boost::make_shared<msg::Rules>(rulesMessage(tick, commons_.settings.params));
+  bodies_.publish(bodies);
+  rules_.publish(rules);
 }
 
 }  // namespace hgrid

@@ -10,7 +10,8 @@ namespace hgrid {
 class World;
 struct Tick;
 
-/// Changes the world at the beginning of a tick, waits until that tick is published, and returns that tick.
+/// Changes the world at the beginning of a tick, waits until that tick, ~bodies and ~rules are published, and returns
+/// that tick.
 /// @throws whatever the change throws; Refusal busy if no tick makes the change in time
 using ChangeWorld = std::function<std::shared_ptr<const Tick>(const std::function<void(World&)>& change)>;
 

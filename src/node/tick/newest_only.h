@@ -43,8 +43,9 @@ class NewestOnly {
     changed_.notify_all();
     return next.has_value();
   }
-  /// Waits until the thread has worked on all values that were passed before this call, apart from dropped ones. Any
-  /// thread may call this, except the thread that works.
+  /// Waits until the work on all values passed before this call is done. If a value was dropped, waits for the value
+  /// that replaced it. Any thread may call this, except the thread that works. No call may be in progress when the
+  /// destructor starts.
   void wait() {
     std::unique_lock<std::mutex> lock(mutex_);
     const std::uint64_t given = given_;
@@ -75,9 +76,10 @@ class NewestOnly {
   std::condition_variable changed_;
   std::optional<Value> waiting_;  // guarded by mutex_
   std::uint64_t given_ = 0;       // number of values that were passed; guarded by mutex_
-  std::uint64_t done_ = 0;        // given_ when the last value whose work is done was taken; guarded by mutex_
-  bool ends_ = false;             // guarded by mutex_
-  std::thread thread_;            // declared last, because it uses the members above
+  std::uint64_t done_ =
+      0;                // number of values passed before the thread took the value it finished last; guarded by mutex_
+  bool ends_ = false;   // guarded by mutex_
+  std::thread thread_;  // declared last, because it uses the members above
 };
 
 }  // namespace hgrid

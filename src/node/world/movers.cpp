@@ -100,22 +100,22 @@ void Movers::exchange(Change change) {
 /// Removes movers and their members. The others keep their order. @param leaving  indices of movers, ascending
 void Movers::remove(const std::vector<std::size_t>& leaving) noexcept {
   auto next = leaving.begin();
-  std::size_t movers = 0, members = 0;  // how many are kept so far
+  std::size_t kept_movers = 0, kept_members = 0;
   for (std::size_t i = 0; i < movers_.size(); ++i) {
     if (next != leaving.end() && *next == i) {
       ++next;
       continue;
     }
     Mover& mover = movers_[i];
-    const std::size_t first = members;
-    for (std::size_t member = mover.first; member < mover.last; ++member) members_[members++] = members_[member];
+    const std::size_t first = kept_members;
+    for (std::size_t member = mover.first; member < mover.last; ++member) members_[kept_members++] = members_[member];
     mover.first = first;
-    mover.last = members;
-    if (movers != i) movers_[movers] = std::move(mover);
-    ++movers;
+    mover.last = kept_members;
+    if (kept_movers != i) movers_[kept_movers] = std::move(mover);
+    ++kept_movers;
   }
-  movers_.erase(movers_.begin() + static_cast<std::ptrdiff_t>(movers), movers_.end());
-  members_.erase(members_.begin() + static_cast<std::ptrdiff_t>(members), members_.end());
+  movers_.erase(movers_.begin() + static_cast<std::ptrdiff_t>(kept_movers), movers_.end());
+  members_.erase(members_.begin() + static_cast<std::ptrdiff_t>(kept_members), members_.end());
 }
 
 }  // namespace hgrid

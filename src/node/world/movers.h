@@ -49,9 +49,10 @@ class Movers {
   /// Adds one body that follows its `frame`.
   /// @throws Refusal as Scene::add()
   void add(const SourceId& source, Body body);
-  /// Returns a change that removes all movers of the sources for which `chosen` returns true.
+  /// Returns a change that removes all movers of the sources for which `chosen` returns true. The change is valid until
+  /// the next add() or exchange().
   Change changeWithout(const std::function<bool(const SourceId&)>& chosen) const;
-  /// Applies a change to this object and to the scene.
+  /// Applies a change to this object and to the scene. changeWithout() of this object must have returned it.
   /// @throws Refusal as Scene::exchange()
   void exchange(Change change);
 
@@ -91,10 +92,10 @@ class Movers::Change {
  private:
   friend class Movers;
   std::vector<std::size_t> leaving_;  // indices of the movers that leave, ascending
-  std::vector<BodyId> out_;           // bodies that leave the scene: those of leaving_
-  std::vector<Mover> movers_;         // those that are added; `first` and `last` are indices into members_
+  std::vector<BodyId> out_;           // bodies of the movers in leaving_; they leave the scene
+  std::vector<Mover> movers_;         // new movers; `first` and `last` are indices into members_
   std::vector<Member> members_;       // their `body` is not set yet
-  std::vector<Body> in_;              // bodies that enter the scene: those of members_
+  std::vector<Body> in_;              // bodies that enter the scene, in the order of members_
 };
 
 }  // namespace hgrid

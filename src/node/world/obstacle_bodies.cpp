@@ -145,6 +145,7 @@ std::vector<PairRule> ObstacleBodies::touchRulesAfter(const ObstacleEdits& edits
     }
     for (const auto& [name, obstacle] : edits.set) act(name, obstacle);
   };
+  // Without a new attachment the number of rules cannot grow.
   const bool attaches = std::any_of(edits.set.begin(), edits.set.end(),
                                     [](const auto& edit) { return edit.second.attachment != nullptr; });
   if (!attaches && touch_.rules.empty()) return {};
@@ -223,16 +224,21 @@ void ObstacleBodies::restamp(Time now) noexcept {
 /// the body and its pairs.
 void ObstacleBodies::carryOut(ObstacleEdits edits, const std::string& world_frame, Movers& movers) {
   std::set<std::string> leaving;
-  std::vector<Body> entering;
+  std::vector<const PlacedObstacle*> entering;
   entering.reserve(edits.set.size());
+  std::vector<PlacedObstacles::iterator> outdated;  // those that are removed from present_, or replaced
   Time first_end = first_end_;
   for (const std::string& name : edits.removed) {
-    if (present_.count(name) != 0) leaving.insert(name);
+    const auto old = present_.find(name);
+    if (old == present_.end()) continue;
+    leaving.insert(name);
+    outdated.push_back(old);
   }
   for (const auto& [name, next] : edits.set) {
     first_end = std::min(first_end, next.ends);
     const auto old = present_.find(name);
     if (old != present_.end()) {
+      outdated.push_back(old);
       const bool renewed = !old->second.lost && old->second.restored == next.restored &&
                            old->second.carrier_speed == next.carrier_speed &&
                            !old->second.attachment == !next.attachment && isAtSamePlace(old->second, next) &&
@@ -240,14 +246,15 @@ void ObstacleBodies::carryOut(ObstacleEdits edits, const std::string& world_fram
       if (renewed) continue;
       leaving.insert(name);
     }
-    entering.push_back(bodyOf(next, world_frame));
+    entering.push_back(&next);
   }
   std::vector<PairRule> touch = touchRulesAfter(edits);
   if (!leaving.empty() || !entering.empty()) {
     Movers::Change change = movers.changeWithout(
         [&](const SourceId& source) { return source.kind == SourceKind::obstacle && leaving.count(source.name) != 0; });
     change.reserve(entering.size());
-    for (Body& body : entering) {
+    for (const PlacedObstacle* obstacle : entering) {
+      Body body = bodyOf(*obstacle, world_frame);
       const std::string frame = body.frame;
       const SourceId source = SourceId::ofObstacle(body.name);
       const Pose frame_from_body = body.frame_from_body;
@@ -256,8 +263,7 @@ void ObstacleBodies::carryOut(ObstacleEdits edits, const std::string& world_fram
     movers.exchange(std::move(change));
   }
   // The code below does not allocate, so it cannot fail.
-  for (const std::string& name : edits.removed) present_.erase(name);
-  for (const auto& edit : edits.set) present_.erase(edit.first);
+  for (const auto& old : outdated) present_.erase(old);
   present_.merge(edits.set);
   if (!touch.empty() || !touch_.rules.empty()) ++touch_.revision;
   touch_.rules.swap(touch);

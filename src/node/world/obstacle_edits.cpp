@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/world/obstacle_edits.h"
+
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -8,7 +10,6 @@
 
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/refusal.h"
-#include "node/world/obstacle_edits.h"
 
 namespace hgrid {
 namespace {
@@ -159,13 +160,13 @@ void ObstacleEditor::edit(const ObstacleChange& change) {
       carryGroup(*old, next);
     }
   }
-  regroup(find(change.name), &next);
+  if (groups_) regroup(find(change.name), &next);
   edits_.set.insert_or_assign(change.name, std::move(next));
   edits_.removed.erase(change.name);
 }
 
 void ObstacleEditor::remove(const std::string& name) {
-  regroup(find(name), nullptr);
+  if (groups_) regroup(find(name), nullptr);
   edits_.removed.insert(name);
   edits_.set.erase(name);
 }
@@ -196,9 +197,8 @@ const std::set<std::string>& ObstacleEditor::groupOf(const PlacedObstacle& obsta
   return (*groups_)[obstacle.what->body.group];
 }
 
-/// Keeps groups_ up to date when an obstacle is about to change. Null: there is no such obstacle.
+/// Keeps groups_, which must exist, up to date when an obstacle is about to change. Null: there is no such obstacle.
 void ObstacleEditor::regroup(const PlacedObstacle* before, const PlacedObstacle* after) {
-  if (!groups_) return;
   if (before != nullptr) (*groups_)[before->what->body.group].erase(before->what->body.name);
   if (after != nullptr) (*groups_)[after->what->body.group].insert(after->what->body.name);
 }

@@ -100,14 +100,15 @@ struct FourSpheres {
   }
 
   Four center[kFours][3], radius[kFours];  // a lane without a sphere has a negative radius
-  SmallSphere around;                      // contains all of them, apart from rounding errors
+  SmallSphere around{};  // bounding sphere of all spheres; its radius is not reduced; zero if there are none
   std::size_t count = 0;
 
  private:
-  // Relative bound of the rounding errors of a sphere that was moved: of its center, the matrix, and the sums.
+  // Bound of the rounding errors of at(), relative to the sum of the absolute coordinates.
   static constexpr float kRounding = 1e-6f;
 
-  /// Returns whether a sphere comes near all of these spheres. A wrong answer only costs time or a shortcut.
+  /// Returns whether a sphere overlaps the bounding sphere. Rounding may make the answer wrong: after a wrong true, all
+  /// spheres are tested; after a wrong false, the narrow phase measures the shapes.
   bool mayMeet(const SmallSphere& other) const {
     const float x = around.center[0] - other.center[0], y = around.center[1] - other.center[1],
                 z = around.center[2] - other.center[2], reach = around.radius + other.radius;

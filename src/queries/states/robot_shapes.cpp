@@ -13,8 +13,9 @@
 namespace hgrid {
 namespace {
 
-constexpr float kUnit = 6e-8f;      // relative rounding error of one float operation
-constexpr float kMostWaste = 8.0f;  // volume of the box of a cluster / volume of the boxes of its shapes, at most
+constexpr float kUnit = 6e-8f;  // relative rounding error of one float operation
+// Limit of: volume of the box of a cluster / sum of the volumes of the boxes of its shapes.
+constexpr float kMaxVolumeRatio = 8.0f;
 
 /// Returns the axis-aligned box around a tilted one.
 Eigen::AlignedBox3f boundsOf(const TiltedBox<float>& box) {
@@ -234,12 +235,12 @@ void RobotShapes::addShapesOf(const Snapshot& snapshot, const QueryScope& scope,
 /// Makes the clusters. A shape joins the cluster before it if that does not make the searched volume much larger.
 void RobotShapes::addClusters() {
   Eigen::AlignedBox3f bounds;  // of the last cluster, in the frame of its group
-  float volumes = 0.0f;        // [m3] sum of those of its shapes
+  float volumes = 0.0f;        // [m^3] sum of the volumes of the boxes of its shapes
   for (std::uint32_t i = 0; i < counting_; ++i) {
     const Eigen::AlignedBox3f shape = boundsOf(shapes_[i].in_group);
     const bool joins = i > 0 && shapes_[i].group == shapes_[i - 1].group &&
                        i - clusters_.back().first < ShapeCluster::kMost &&
-                       bounds.merged(shape).volume() <= kMostWaste * (volumes + shape.volume());
+                       bounds.merged(shape).volume() <= kMaxVolumeRatio * (volumes + shape.volume());
     if (!joins) {
       clusters_.push_back({i, i});
       bounds.setEmpty();

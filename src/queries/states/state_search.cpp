@@ -170,7 +170,7 @@ void StateSearch::findInGrid() {
   });
 }
 
-/// Finds what is near some shapes of the robot, with one search of the grid.
+/// Finds the shapes of the world that are near the shapes of a cluster. Searches the grid once.
 void StateSearch::findNearCluster(std::size_t lane, const ShapeCluster& cluster) {
   const RobotInState& robot = robotIn(lane);
   const float limit = roundedUp(limit_[lane]);
@@ -185,7 +185,7 @@ void StateSearch::findNearCluster(std::size_t lane, const ShapeCluster& cluster)
   }
   world_.overlapping(all, scratch_.found);
   if (scratch_.found.empty()) return;
-  const bool is_single = cluster.last - cluster.first == 1;
+  const bool is_single = cluster.last - cluster.first == 1;  // the search has already tested the box of this shape
   for (std::uint32_t own = cluster.last; own-- > cluster.first && isOpen(lane);) {
     const float reach = std::min(limit, scratch_.shape_reach[own][lane]);
     const Aabb& bounds = searched[own - cluster.first];

@@ -37,10 +37,11 @@ Number dotOf(const Number (&a)[3], const Number (&b)[3]) {
 
 /// Separates two boxes by the 15 axes of the separating axis test (Ericson 2005, section 4.4.1). Rounding only makes
 /// the results smaller.
-/// @param enough  [m] if the faces separate two single boxes by more than this, the edges are not looked at
+/// @param up_to  [m] If along_faces is larger than this, along_edges is not computed and is negative. Only for single
+///   boxes; Four ignores it.
 template <class Number>
 Separation<Number> separationOf(const TiltedBox<Number>& a, const TiltedBox<Number>& b,
-                                [[maybe_unused]] const Number& enough) {
+                                [[maybe_unused]] const Number& up_to) {
   Number turn[3][3], share[3][3], way[3], along[3];  // in the frame of `a`: rotation of `b`, its center
   for (int k = 0; k < 3; ++k) way[k] = b.center[k] - a.center[k];
   for (int i = 0; i < 3; ++i) {
@@ -62,7 +63,7 @@ Separation<Number> separationOf(const TiltedBox<Number>& a, const TiltedBox<Numb
   }
   result.along_faces = result.along_faces - rounding;
   if constexpr (std::is_same_v<Number, float>) {
-    if (result.along_faces > enough) return result;
+    if (result.along_faces > up_to) return result;
   }
   for (int i = 0; i < 3; ++i) {
     const int next = (i + 1) % 3, last = (i + 2) % 3;

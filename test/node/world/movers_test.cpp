@@ -85,7 +85,7 @@ TEST_F(MoversTest, ReplaceTheBodiesOfOneSourceAndKeepThePosesOfTheOthers) {
   EXPECT_GT(movers_.revision(), before);
 }
 
-TEST_F(MoversTest, KeepTheMembersOfTheMoversThatMoveUp) {
+TEST_F(MoversTest, KeepTheMembersOfOtherMoversWhenOneIsRemoved) {
   const SourceId post = SourceId::ofObstacle("obstacle/post");
   Movers::Change change = movers_.changeWithout([&](const SourceId& source) { return source == post; });
   const SourceId box = SourceId::ofObstacle("obstacle/box");

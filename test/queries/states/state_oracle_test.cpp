@@ -118,5 +118,25 @@ TEST(StateOracle, VerdictsPairsAndClearancesEqualThoseOfAllShapes) {
   for (const int kind : {seen.self, seen.map, seen.plane, seen.held, seen.beyond}) EXPECT_GT(kind, seen.states / 100);
 }
 
+/// Claim: links with more shapes than one search of the grid covers are compared with everything, too.
+TEST(StateOracle, LinksOfManyShapesEqualTheOracle) {
+  Seen seen;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    WorldPlan plan;
+    plan.links = 2;  // which may touch each other
+    plan.obstacles = 30;  // so many that they are in a grid
+    plan.shapes = 60;
+    plan.size = 0.04;
+    const StateWorld world = randomStateWorld(random, plan);
+    if (world.kinematics().variables().empty()) continue;
+    play(random, world, plan.world_from_root, false, 20, seen);
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(seen.hits, seen.states / 10);
+  EXPECT_GT(seen.clear, seen.states / 10);
+}
+
 }  // namespace
 }  // namespace hgrid

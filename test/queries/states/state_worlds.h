@@ -50,17 +50,19 @@ struct StateWorld {
 /// Describes how a random world looks.
 struct WorldPlan {
   int links = 6, obstacles = 12;
-  double far = 1.2;  ///< [m] how far obstacles are from the origin along each axis
+  int shapes = 3;      ///< largest number of shapes of a link
+  double size = 0.15;  ///< [m] of these shapes
+  double far = 1.2;    ///< [m] how far obstacles are from the origin along each axis
   bool attached = true, map = true, plane = true;
   Pose world_from_root = Pose::Identity();
 };
 
-/// Gives each moving link of a robot one to three random shapes.
-inline void addShapes(RobotModel& model, Random& random) {
+/// Gives each moving link of a robot random shapes, at least one and at most `most`. @param size  [m] of the shapes
+inline void addShapes(RobotModel& model, Random& random, int most = 3, double size = 0.15) {
   for (RobotLink& link : model.links) {
     link.has_collision = random.chance(0.8);
-    for (int i = random.between(1, 3); link.has_collision && i > 0; --i) {
-      link.shapes.push_back(solidShape(randomShape(random, 0.15), randomPose(random, 0.1),
+    for (int i = random.between(1, most); link.has_collision && i > 0; --i) {
+      link.shapes.push_back(solidShape(randomShape(random, size), randomPose(random, 0.1),
                                        random.chance(0.2) ? random.uniform(0, 0.02) : 0.0));
     }
   }
@@ -71,7 +73,7 @@ inline void addShapes(RobotModel& model, Random& random) {
 inline StateWorld randomStateWorld(Random& random, const WorldPlan& plan) {
   StateWorld world;
   world.model = randomMechanism(random, plan.links, 0.25);
-  addShapes(world.model, random);
+  addShapes(world.model, random, plan.shapes, plan.size);
   LinkRules rules;
   if (plan.links > 3) rules.disabled.push_back({"link1", "link3", ""});
   world.matrix = std::make_shared<const LinkMatrix>(matrixOf(world.model, rules));
