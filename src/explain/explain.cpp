@@ -10,6 +10,7 @@
 #include "hgrid_proximity/explain/decided_rule.h"
 #include "hgrid_proximity/geometry/float_environment.h"
 #include "hgrid_proximity/refusal.h"
+#include "world/body_gap.h"
 
 namespace hgrid {
 namespace {
@@ -203,7 +204,7 @@ class Words {
 
   static std::string freshness(const Body& body, Freshness state, double age) {
     if (state == Freshness::fresh || state == Freshness::unplaced) return {};
-    return " " + body.name + " is " + name(state) + ": its pose is " + secondsText(age) + " old.";
+    return " " + body.name + " is " + name(state) + ": " + causeOf(state) + "its pose is " + secondsText(age) + " old.";
   }
 
   std::string measured() const {

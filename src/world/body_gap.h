@@ -12,4 +12,7 @@ namespace hgrid {
 /// The text is empty if the body does not make its source incomplete.
 std::string gapLeftBy(const Body& body, const BodyPose& pose);
 
+/// Returns the beginning of a sentence about the pose of a body in this state: what is wrong, if its age does not tell.
+std::string causeOf(Freshness state);
+
 }  // namespace hgrid

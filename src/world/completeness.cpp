@@ -30,14 +30,18 @@ void sortNames(std::vector<std::string>& names) {
 
 }  // namespace
 
+std::string causeOf(Freshness state) {
+  return state == Freshness::invalid ? "newer data was refused, or several publishers contradict each other; " : "";
+}
+
 std::string gapLeftBy(const Body& body, const BodyPose& pose) {
   if (pose.state == Freshness::unplaced) {
     return "UNPLACED " + body.name + ": it never had a pose (frame '" + printable(body.frame) + "')";
   }
   if (!body.covered && !body.waived) return "UNCOVERED " + body.name + ": " + body.note;
   if (pose.state >= Freshness::lost) {
-    return std::string(name(pose.state)) + " " + body.name +
-           (body.kind == BodyKind::cloud ? ": its newest points are " : ": its pose is ") + secondsText(pose.age) +
+    return std::string(name(pose.state)) + " " + body.name + ": " + causeOf(pose.state) +
+           (body.kind == BodyKind::cloud ? "its newest points are " : "its pose is ") + secondsText(pose.age) +
            " old (frame '" + printable(body.frame) + "')";
   }
   return {};

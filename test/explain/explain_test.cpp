@@ -252,6 +252,18 @@ TEST_F(Explain, APairThatTruncationRemovedIsNotAlsoCalledReported) {
   EXPECT_FALSE(says(what.text, "must be reported")) << what.text;
 }
 
+TEST_F(Explain, AnInvalidPoseIsToldWithItsCauses) {
+  scene_.setState(near_, Freshness::invalid, 0.5);
+  EXPECT_TRUE(says(ask("obstacle/near", "obstacle/box").text,
+                   "obstacle/near is INVALID: newer data was refused, or several publishers contradict each other; its "
+                   "pose is 0.5 s old."));
+  const auto snapshot = scene_.commit(Time{9}, {});
+  ASSERT_FALSE(snapshot->reasons().empty());
+  EXPECT_TRUE(says(snapshot->reasons().front(),
+                   "INVALID obstacle/near: newer data was refused, or several publishers contradict each other; its "
+                   "pose is 0.5 s old (frame '"));
+}
+
 TEST_F(Explain, OldDataIsToldWithWhatItDoesToTheMargin) {
   scene_.setState(near_, Freshness::late, 0.5);
   EXPECT_TRUE(says(ask("obstacle/near", "obstacle/box").text, "obstacle/near is LATE: its pose is 0.5 s old."));
