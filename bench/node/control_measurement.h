@@ -31,9 +31,9 @@ struct ControlMeasurement {
   Receiving receiving;         ///< with the /tf of the workload
   Receiving idle;              ///< with one cycle of /tf per second
   // Round trips over persistent connections:
-  ServiceTimes empty_service;            ///< service of a control that does nothing
-  ServiceTimes empty_service_beside_tf;  ///< the same, in a control that also receives /tf
-  ServiceTimes sphere;                   ///< ~query_sphere
+  ServiceTimes empty_service;            ///< an empty service, which a control offers
+  ServiceTimes empty_service_beside_tf;  ///< an empty service of a control that also receives /tf
+  ServiceTimes sphere;                   ///< the service ~query_sphere of the node
 };
 
 /// Measures each of the figures for `duration` [s].

@@ -12,7 +12,8 @@ namespace hgrid {
 /// The text is empty if the body does not make its source incomplete.
 std::string gapLeftBy(const Body& body, const BodyPose& pose);
 
-/// Returns the beginning of a sentence about the pose of a body in this state: what is wrong, if its age does not tell.
+/// Returns why a pose is INVALID, as the beginning of a sentence that ends with the age of the pose. Returns an empty
+/// text for all other states.
 std::string causeOf(Freshness state);
 
 }  // namespace hgrid

@@ -24,7 +24,8 @@ void StructurePublisher::publish(const std::shared_ptr<const Tick>& tick) {
 }
 
 void StructurePublisher::publishNow(const Tick& tick) {
-  // Both first: if one cannot be made, the next tick would publish the other one again.
+  // Both messages are made before one is published. Otherwise, while ~rules cannot be made, each tick would publish
+  // ~bodies again.
   const auto bodies = boost::make_shared<msg::Bodies>(bodiesMessage(tick));
   const auto rules = boost::make_shared<msg::Rules>(rulesMessage(tick, commons_.settings.params));
   bodies_.publish(bodies);

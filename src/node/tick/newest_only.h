@@ -76,7 +76,7 @@ class NewestOnly {
   std::condition_variable changed_;
   std::optional<Value> waiting_;  // guarded by mutex_
   std::uint64_t given_ = 0;       // number of values that were passed; guarded by mutex_
-  std::uint64_t done_ = 0;        // value of given_ when the thread took what it finished last; guarded by mutex_
+  std::uint64_t done_ = 0;        // given_ when the thread took the value that it finished last; guarded by mutex_
   bool ends_ = false;             // guarded by mutex_
   std::thread thread_;            // declared last, because it uses the members above
 };

@@ -13,7 +13,7 @@ Member memberAt(const Pose& frame_from_body) {
   return {{}, frame_from_body.matrix() == Pose::Identity().matrix(), frame_from_body};
 }
 
-/// Makes room for more elements, so that adding them does not allocate.
+/// Reserves memory for `more` further elements, so that adding them does not allocate.
 template <class T>
 void makeRoom(std::vector<T>& elements, std::size_t more) {
   const std::size_t needed = elements.size() + more;

@@ -145,7 +145,7 @@ std::vector<PairRule> ObstacleBodies::touchRulesAfter(const ObstacleEdits& edits
     }
     for (const auto& [name, obstacle] : edits.set) act(name, obstacle);
   };
-  // Without a new attachment the number of rules cannot grow.
+  // Without attachments, before and after the edits, there are no rules, and the loops below are not needed.
   const bool attaches = std::any_of(edits.set.begin(), edits.set.end(),
                                     [](const auto& edit) { return edit.second.attachment != nullptr; });
   if (!attaches && touch_.rules.empty()) return {};

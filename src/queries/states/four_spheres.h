@@ -31,7 +31,7 @@ struct FourSpheres {
   static constexpr std::size_t kFours = (kMostInnerSpheres + 3) / 4;
 
   FourSpheres() = default;
-  /// @param spheres  at most kMostInnerSpheres
+  /// Converts spheres. @param spheres  at most kMostInnerSpheres spheres [m]
   explicit FourSpheres(const std::vector<Sphere>& spheres) : count(spheres.size()) {
     const SmallSphere none{{0.0f, 0.0f, 0.0f}, -1e30f};
     Eigen::AlignedBox3d bounds;

@@ -23,8 +23,7 @@ Eigen::AlignedBox3f boundsOf(const TiltedBox<float>& box) {
   for (std::size_t k = 0; k < 3; ++k) {
     const auto row = static_cast<Eigen::Index>(k);
     center[row] = box.center[k];
-    reach[row] = 0.0f;
-    for (std::size_t axis = 0; axis < 3; ++axis) reach[row] += std::abs(box.axes[axis][k]) * box.half[axis];
+    reach[row] = reachAlong(box, k);
   }
   return {center - reach, center + reach};
 }
@@ -232,7 +231,8 @@ void RobotShapes::addShapesOf(const Snapshot& snapshot, const QueryScope& scope,
                    [](const RobotShape& a, const RobotShape& b) { return a.group < b.group; });
 }
 
-/// Makes the clusters. A shape joins the cluster before it if that does not make the searched volume much larger.
+/// Divides the shapes into clusters. A shape joins the cluster of the shape before it, unless the box of the cluster
+/// would become much larger than the boxes of its shapes.
 void RobotShapes::addClusters() {
   Eigen::AlignedBox3f bounds;  // of the last cluster, in the frame of its group
   float volumes = 0.0f;        // [m^3] sum of the volumes of the boxes of its shapes
@@ -278,10 +278,7 @@ void RobotShapes::place(const std::vector<FourPoses>& groups, const std::uint8_t
         result.box.half[k] = allFour(local.half[k]) + pose.rounding;
       }
       for (std::size_t k = 0; k < 3; ++k) {
-        Four reach = pose.rounding;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          reach += absolute(result.box.axes[axis][k]) * result.box.half[axis];
-        }
+        const Four reach = pose.rounding + reachAlong(result.box, k);
         result.min[k] = result.box.center[k] - reach;
         result.max[k] = result.box.center[k] + reach;
       }

@@ -173,11 +173,13 @@ void StateSearch::findInGrid() {
 /// Finds the shapes of the world that are near the shapes of a cluster. Searches the grid once.
 void StateSearch::findNearCluster(std::size_t lane, const ShapeCluster& cluster) {
   const RobotInState& robot = robotIn(lane);
-  const float limit = roundedUp(limit_[lane]);
+  const auto reachOf = [&, limit = roundedUp(limit_[lane])](std::uint32_t own) {
+    return std::min(limit, scratch_.shape_reach[own][lane]);
+  };
   std::array<Aabb, ShapeCluster::kMost> searched;  // for each shape: its box grown by its reach
   Aabb all;
   for (std::uint32_t own = cluster.first; own < cluster.last; ++own) {
-    const float reach = std::min(limit, scratch_.shape_reach[own][lane]);
+    const float reach = reachOf(own);
     Aabb& bounds = searched[own - cluster.first];
     bounds = robot.boundsOf(own);
     if (reach > 0.0f) bounds = grown(bounds, reach);
@@ -187,7 +189,7 @@ void StateSearch::findNearCluster(std::size_t lane, const ShapeCluster& cluster)
   if (scratch_.found.empty()) return;
   const bool is_single = cluster.last - cluster.first == 1;  // the search has already tested the box of this shape
   for (std::uint32_t own = cluster.last; own-- > cluster.first && isOpen(lane);) {
-    const float reach = std::min(limit, scratch_.shape_reach[own][lane]);
+    const float reach = reachOf(own);
     const Aabb& bounds = searched[own - cluster.first];
     std::optional<TiltedBox<float>> box;
     for (const ProxyId other : scratch_.found) {

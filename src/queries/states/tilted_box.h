@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <type_traits>
 
 #include "geometry/four_lanes.h"
@@ -33,6 +34,13 @@ struct Separation {
 template <class Number>
 Number dotOf(const Number (&a)[3], const Number (&b)[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Returns how far [m] a box reaches from its center along a coordinate axis. @param k  the axis: 0, 1 or 2
+template <class Number>
+Number reachAlong(const TiltedBox<Number>& box, std::size_t k) {
+  return absolute(box.axes[0][k]) * box.half[0] + absolute(box.axes[1][k]) * box.half[1] +
+         absolute(box.axes[2][k]) * box.half[2];
 }
 
 /// Separates two boxes by the 15 axes of the separating axis test (Ericson 2005, section 4.4.1). Rounding only makes

@@ -246,7 +246,7 @@ TEST_F(Faults, InTheFirstLoadAreTriedAgain) {
 TEST(MissingThreads, OfATickAreReportedAndTheNodeWorksWithTheOthers) {
   NodeSetup setup;
   setup.command = {HGRID_FAULTS_NODE};
-  setup.environment["HGRID_MOST_THREADS"] = "16";  // the node needs 13 without ~threads
+  setup.environment["HGRID_MOST_THREADS"] = "16";  // the node needs 13, apart from those of ~threads
   setup.environment["ROSCONSOLE_STDOUT_LINE_BUFFERED"] = "1";
   setup.params = dict({{"world_frame", "world"},
                        {"threads", 32},

@@ -125,7 +125,7 @@ TEST(StateOracle, LinksOfManyShapesEqualTheOracle) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     WorldPlan plan;
-    plan.links = 2;  // which may touch each other
+    plan.links = 2;       // they may touch each other
     plan.obstacles = 30;  // so many that they are in a grid
     plan.shapes = 60;
     plan.size = 0.04;
