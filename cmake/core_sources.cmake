@@ -125,14 +125,17 @@ set(HGRID_CORE_SOURCES
   src/world/body_rooms.cpp
   src/world/commit.cpp
   src/world/completeness.cpp
+  src/world/entering_bodies.cpp
   src/world/find_rooms.cpp
   src/world/grown_boxes.cpp
   src/world/horizon.cpp
   src/world/map_pairs.cpp
-  src/world/next_structure.cpp
+  src/world/new_structure.cpp
   src/world/pair_events.cpp
   src/world/plane_pairs.cpp
+  src/world/prepared_bodies.cpp
   src/world/scene.cpp
+  src/world/scene_structure.cpp
   src/world/snapshot.cpp
   src/world/structure.cpp
 )

@@ -19,6 +19,23 @@ double reachOf(const BodyPose& pose, const Body& body, double growth_after) {
   return body.max_speed * pose.age;
 }
 
+/// Finds the bodies of an earlier structure by their handles.
+class BodiesBefore {
+ public:
+  BodiesBefore(const Structure& before, std::size_t slots) : before_(before), of_slot_(slots, Structure::kNone) {
+    for (std::uint32_t body = 0; body < before.ids.size(); ++body) of_slot_[before.ids[body].slot] = body;
+  }
+  /// Returns the index of a body in the earlier structure, or kNone.
+  std::uint32_t find(const BodyId& id) const {
+    const std::uint32_t body = of_slot_[id.slot];
+    return body != Structure::kNone && before_.ids[body] == id ? body : Structure::kNone;
+  }
+
+ private:
+  const Structure& before_;
+  std::vector<std::uint32_t> of_slot_;
+};
+
 }  // namespace
 
 std::shared_ptr<PooledSnapshot> Scene::State::freshSnapshot() const {
@@ -35,7 +52,7 @@ std::shared_ptr<PooledSnapshot> Scene::State::freshSnapshot() const {
 /// Computes the boxes of a body from its pose.
 void Scene::State::makeBoxes(std::size_t body, const Pose& world_from_body, Snapshot& snapshot) const {
   for (std::uint32_t proxy = structure->first_proxy[body]; proxy < structure->first_proxy[body + 1]; ++proxy) {
-    const BodyShape& shape = *shapes[proxy];
+    const BodyShape& shape = *structure->shapes[proxy];
     snapshot.boxes_[proxy] = boxOf(shape.shape, world_from_body * shape.body_from_shape, shape.padding, options.origin);
   }
 }
@@ -55,6 +72,18 @@ bool Scene::State::fillBoxes(std::uint32_t body, Snapshot& snapshot) {
   makeBoxes(body, slot.pose.world_from_body, snapshot);
   boxed.push_back(structure->ids[body].slot);
   return true;
+}
+
+/// Copies the boxes of the bodies that were in the last snapshot, whose structure was another one.
+void Scene::State::keepBoxes(Snapshot& snapshot) const {
+  const Structure& earlier = *last->structure_;
+  const BodiesBefore before(earlier, slots.size());
+  for (std::size_t body = 0; body < structure->ids.size(); ++body) {
+    const std::uint32_t known = before.find(structure->ids[body]);
+    if (known == Structure::kNone) continue;
+    std::copy(last->boxes_.begin() + earlier.first_proxy[known], last->boxes_.begin() + earlier.first_proxy[known + 1],
+              snapshot.boxes_.begin() + structure->first_proxy[body]);
+  }
 }
 
 /// Fills all poses and boxes. If a body did not move since the last commit, copies its boxes from the last snapshot.
@@ -229,7 +258,7 @@ std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<Sour
   using Clock = std::chrono::steady_clock;
   State& s = *state_;
   const auto begin = Clock::now();
-  if (s.structure_changed) s.rebuildStructure();
+  if (s.structure_changed) s.renewStructure();
   const std::shared_ptr<PooledSnapshot> pooled = s.freshSnapshot();
   Snapshot& snapshot = pooled->snapshot;
   snapshot.origin_ = s.options.origin;

@@ -47,30 +47,6 @@ std::string gapLeftBy(const Body& body, const BodyPose& pose) {
   return {};
 }
 
-/// Finds the source of each body, and the required bodies that are absent.
-void Scene::State::fillSources(Structure& structure) const {
-  std::vector<std::string> found;  // the sources; successive bodies with the same source share an element
-  structure.source_of.reserve(structure.bodies.size());
-  for (const Body& body : structure.bodies) {
-    std::string source = sourceOf(body);
-    if (found.empty() || found.back() != source) found.push_back(std::move(source));
-    structure.source_of.push_back(static_cast<std::uint32_t>(found.size() - 1));
-  }
-  structure.sources = found;
-  sortNames(structure.sources);
-  std::vector<std::uint32_t> sorted;  // for each element of `found`: its index in Structure::sources
-  for (const std::string& source : found) {
-    const auto at = std::lower_bound(structure.sources.begin(), structure.sources.end(), source);
-    sorted.push_back(static_cast<std::uint32_t>(at - structure.sources.begin()));
-  }
-  for (std::uint32_t& source : structure.source_of) source = sorted[source];
-  for (const std::string& pattern : options.required) {
-    const bool present = std::any_of(structure.bodies.begin(), structure.bodies.end(),
-                                     [&](const Body& body) { return matches(pattern, body.name); });
-    if (!present) structure.absent.push_back(pattern);
-  }
-}
-
 void Scene::State::fillCompleteness(Snapshot& snapshot, const std::vector<SourceGap>& gaps) const {
   snapshot.gaps_ = gaps;
   for (const std::string& pattern : structure->absent) snapshot.gaps_.push_back(gapOfAbsent(pattern));
@@ -82,7 +58,7 @@ void Scene::State::fillCompleteness(Snapshot& snapshot, const std::vector<Source
     snapshot.incomplete_.push_back(gap.source);
     if (snapshot.reasons_.size() < options.max_reasons) snapshot.reasons_.push_back(gap.sentence);
   }
-  if (snapshot.worst_state_ >= Freshness::stale || snapshot.max_reach_ > 0.0 || !uncovered.empty()) {
+  if (snapshot.worst_state_ >= Freshness::stale || snapshot.max_reach_ > 0.0 || !structure->uncovered.empty()) {
     fillDoubtful(snapshot);
   }
   sortNames(snapshot.incomplete_);
@@ -93,6 +69,7 @@ void Scene::State::fillCompleteness(Snapshot& snapshot, const std::vector<Source
 void Scene::State::fillDoubtful(Snapshot& snapshot) const {
   std::vector<std::pair<int, std::uint32_t>> worst_first;  // negated state and body, so that the worst sorts first
   std::vector<bool> incomplete(structure->sources.size());
+  const std::vector<std::uint32_t>& uncovered = structure->uncovered;
   auto next_uncovered = uncovered.begin();
   for (std::uint32_t i = 0; i < snapshot.poses_.size(); ++i) {
     const BodyPose& pose = snapshot.poses_[i];

@@ -98,9 +98,9 @@ bool Scene::State::moveInGrid(BroadPhase& grid) {
 /// Stores the grown boxes in the grid. Finds the overlapping pairs that the filter keeps, up to the limit.
 void Scene::State::fillGrid(PooledSnapshot& pooled) {
   if (pooled.grid_revision != structure->revision) {
-    pooled.setBroadPhase(makeBroadPhase({options.broad_phase, scale.finest_edge, options.threads}));
+    pooled.setBroadPhase(makeBroadPhase({options.broad_phase, structure->scale.finest_edge, options.threads}));
     BroadPhase& grid = *pooled.broad_phase;
-    grid.setFixed(fixed_proxies);
+    grid.setFixed(structure->fixed_proxies);
     grid.setOverlapFilter(OverlapFilter::of<isReported>(structure.get()));  // the snapshot keeps the structure alive
     grid.setPairBound(limits.boundOf(structure->body_of_proxy.size()));
     pooled.grid_revision = structure->revision;

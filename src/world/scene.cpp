@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <string_view>
-#include <unordered_set>
+#include <map>
 #include <utility>
 
 #include "hgrid_proximity/bodies/name.h"
@@ -16,54 +15,7 @@
 namespace hgrid {
 namespace {
 
-constexpr double kLargestMargin = 1e3;  // [m] also the largest padding, hysteresis, growth cap and finest edge
-// [m] Largest coordinate of a shape in the frame of its body, and of a body in the world frame.
-constexpr double kFarthestShape = 1e6;
 constexpr std::ptrdiff_t kMostMatches = 64;  // most elements of State::name_matches; each has a copy of all globs
-
-void checkLength(double value, double limit, const std::string& what) {
-  if (!(value >= 0.0 && value <= limit)) {
-    throw Refusal(Code::out_of_range, what + " is " + text(value) + " m; it must be within 0 .. " + text(limit) + " m");
-  }
-}
-
-std::size_t planesOf(const Body& body) {
-  return static_cast<std::size_t>(std::count_if(body.shapes.begin(), body.shapes.end(), [](const BodyShape& shape) {
-    return shape.shape.kind() == ShapeKind::plane;
-  }));
-}
-
-void checkBody(const Body& body) {
-  const std::size_t slash = body.name.find('/');
-  if (slash == std::string::npos) {
-    throw Refusal(Code::bad_id, "body name is '" + printable(body.name) + "'; it must have the form source/local");
-  }
-  checkSource(body.name.substr(0, slash), "source of body '" + printable(body.name) + "'");
-  checkLocal(body.name.substr(slash + 1), "local name of body '" + printable(body.name) + "'");
-  checkLength(body.margin, kLargestMargin, "margin of body '" + body.name + "'");
-  if (!(body.max_speed >= 0.0)) {
-    throw Refusal(Code::out_of_range,
-                  "max_speed of body '" + body.name + "' is " + text(body.max_speed) + " m/s; it must not be negative");
-  }
-  if (body.links && body.link >= body.links->size()) {
-    throw Refusal(Code::out_of_range, "link index of body '" + body.name + "' is " + std::to_string(body.link) +
-                                          "; it must be smaller than the number of links of the robot, " +
-                                          std::to_string(body.links->size()));
-  }
-  if (planesOf(body) > 0 && (body.kind != BodyKind::obstacle || body.mobility != Mobility::fixed)) {
-    throw Refusal(Code::unsupported, "body '" + body.name +
-                                         "' has a plane; only an obstacle that is fixed in the world " +
-                                         "may have planes, because no speed bounds the motion of a plane");
-  }
-  for (const BodyShape& shape : body.shapes) {
-    const std::string what = "pose of a shape of body '" + body.name + "'";
-    if (!shape.body_from_shape.matrix().allFinite()) {
-      throw Refusal(Code::nonfinite, what + " is not finite; every number in it must be finite");
-    }
-    checkWithin(shape.body_from_shape.translation(), kFarthestShape, what);
-    checkLength(shape.padding, kLargestMargin, "padding of a shape of body '" + body.name + "'");
-  }
-}
 
 void checkTuning(const SceneTuning& tuning) {
   checkLength(tuning.margin, kLargestMargin, "margin");
@@ -74,21 +26,6 @@ void checkTuning(const SceneTuning& tuning) {
   }
 }
 
-/// Returns whether a new obstacle is the old one at another place, so that its pairs continue. It must be fixed: the
-/// pose of a moving obstacle may be unknown until its frame is found, so it becomes a new body.
-bool isSameElsewhere(const Body& before, const Body& after) {
-  const auto isObstacle = [](const Body& body) {
-    return body.kind == BodyKind::obstacle && body.mobility == Mobility::fixed;
-  };
-  const auto isSameShape = [](const BodyShape& a, const BodyShape& b) {
-    return a.solid && a.solid == b.solid && a.padding == b.padding &&
-           a.body_from_shape.matrix() == b.body_from_shape.matrix();
-  };
-  return isObstacle(before) && isObstacle(after) && before.frame == after.frame && before.margin == after.margin &&
-         before.group == after.group &&
-         std::equal(before.shapes.begin(), before.shapes.end(), after.shapes.begin(), after.shapes.end(), isSameShape);
-}
-
 }  // namespace
 
 const char* name(Freshness state) {
@@ -97,7 +34,7 @@ const char* name(Freshness state) {
 }
 
 Scene::State::Slot& Scene::State::at(BodyId id) {
-  if (id.slot >= slots.size() || !slots[id.slot].used || slots[id.slot].generation != id.generation) {
+  if (!isThere(id)) {
     throw Refusal(Code::unknown_id, "body handle " + std::to_string(id.slot) + " (generation " +
                                         std::to_string(id.generation) + ") is not valid; its body was removed");
   }
@@ -143,35 +80,7 @@ std::vector<std::uint32_t> Scene::State::checkedSlots(const std::vector<BodyId>&
   return leaving;
 }
 
-/// Checks the bodies to be added, their names, and whether there is room for them.
-void Scene::State::checkIn(const std::vector<std::uint32_t>& leaving, const std::vector<Body>& in) const {
-  std::size_t count = slot_of_name.size() - leaving.size(), planes = plane_count;
-  for (const std::uint32_t slot : leaving) planes -= planesOf(*bodies[slot]);
-  std::unordered_set<std::string_view> names;
-  names.reserve(in.size());
-  for (const Body& body : in) {
-    checkBody(body);
-    const auto known = slot_of_name.find(body.name);
-    const bool stays =
-        known != slot_of_name.end() && !std::binary_search(leaving.begin(), leaving.end(), known->second);
-    if (stays || !names.insert(body.name).second) {
-      throw Refusal(Code::dup_id, "there is already a body '" + body.name + "'; every body must have its own name");
-    }
-    if (count++ >= options.max_bodies) {
-      throw Refusal(Code::limit, "there is no room for body '" + body.name + "'; the world may have at most " +
-                                     std::to_string(options.max_bodies) + " bodies (max_bodies)");
-    }
-    planes += planesOf(body);
-    if (planes > options.max_planes) {
-      throw Refusal(Code::limit, "there is no room for the planes of body '" + body.name +
-                                     "'; the world may have at most " + std::to_string(options.max_planes) +
-                                     " planes (max_planes)");
-    }
-  }
-}
-
-/// Returns slots for the bodies to be added: first the slots of the bodies to be removed, then free slots, then new
-/// slots.
+/// Returns slots for bodies that enter: first the slots of bodies that leave, then free slots, then new slots.
 std::vector<std::uint32_t> Scene::State::slotsFor(const std::vector<std::uint32_t>& leaving, std::size_t count) const {
   std::vector<std::uint32_t> numbers;
   for (auto slot = leaving.rbegin(); slot != leaving.rend() && numbers.size() < count; ++slot) numbers.push_back(*slot);
@@ -184,7 +93,11 @@ std::vector<std::uint32_t> Scene::State::slotsFor(const std::vector<std::uint32_
   return numbers;
 }
 
-void Scene::State::reserveSlots(std::size_t count) {
+/// Reserves memory, so that putIn() does not allocate. @param numbers  the slots that will be used
+/// @returns the number of slots after that
+std::size_t Scene::State::reserveSlots(const std::vector<std::uint32_t>& numbers) {
+  const std::size_t last = numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end()) + std::size_t{1};
+  const std::size_t count = std::max(slots.size(), last);
   const auto reserve = [count](auto& values) {
     if (values.capacity() < count) values.reserve(std::max(count, 2 * values.capacity()));
   };
@@ -193,19 +106,21 @@ void Scene::State::reserveSlots(std::size_t count) {
   reserve(cells);
   reserve(free_slots);
   changes.reserve(count);
+  return count;
 }
 
 void Scene::State::takeOut(std::uint32_t slot) {
-  slot_of_name.erase(bodies[slot]->name);
   plane_count -= planesOf(*bodies[slot]);
   bodies[slot].reset();
   cells[slot].reset();
   slots[slot].used = slots[slot].moved = false;
   ++slots[slot].generation;
   free_slots.push_back(slot);
+  --body_count;
 }
 
-void Scene::State::putIn(std::uint32_t slot, std::shared_ptr<const Body>&& body) {
+/// @returns the handle of the body
+BodyId Scene::State::putIn(std::uint32_t slot, std::shared_ptr<const Body> body) {
   if (slot < slots.size()) {
     free_slots.pop_back();
   } else {
@@ -218,49 +133,77 @@ void Scene::State::putIn(std::uint32_t slot, std::shared_ptr<const Body>&& body)
   slots[slot].fixed = body->mobility == Mobility::fixed;
   slots[slot].pose = BodyPose{};
   bodies[slot] = std::move(body);
+  ++body_count;
+  return {slot, slots[slot].generation};
 }
 
-std::vector<BodyId> Scene::exchange(const std::vector<BodyId>& out, std::vector<Body> in) {
-  State& s = *state_;
-  std::vector<std::uint32_t> leaving = s.checkedSlots(out);
-  s.checkIn(leaving, in);
+/// Returns the slot of the body with this name, or Structure::kNone.
+std::uint32_t Scene::State::slotOf(const std::string& name) const {
+  const auto found = entered.find(name);
+  if (found != entered.end()) return found->second;
+  const std::uint32_t body = structure->find(name);
+  return body != Structure::kNone && isThere(structure->ids[body]) ? structure->ids[body].slot : Structure::kNone;
+}
+
+/// Returns the index in `structure` of the body in a slot, or Structure::kNone if the structure lacks the body.
+std::uint32_t Scene::State::placeOf(std::uint32_t slot) const {
+  const std::uint32_t body = slot < body_of_slot.size() ? body_of_slot[slot] : Structure::kNone;
+  return body != Structure::kNone && isThere(structure->ids[body]) ? body : Structure::kNone;
+}
+
+std::vector<BodyId> Scene::State::exchange(const std::vector<BodyId>& out, EnteringBodies in) {
+  std::vector<std::uint32_t> leaving = checkedSlots(out);
+  std::size_t planes = plane_count;
+  for (const std::uint32_t slot : leaving) planes -= planesOf(*bodies[slot]);
+  checkEntering(in, body_count - leaving.size(), planes, options, [&](const std::string& name) {
+    const std::uint32_t slot = slotOf(name);
+    return slot != Structure::kNone && !std::binary_search(leaving.begin(), leaving.end(), slot);
+  });
   std::vector<BodyId> ids(in.size());
   std::vector<std::size_t> entering;   // the bodies of `in` that need a slot; the others keep the one they have
   std::vector<std::uint32_t> staying;  // the slots of the others
   for (std::size_t i = 0; i < in.size(); ++i) {
-    const auto known = s.slot_of_name.find(in[i].name);
-    if (known == s.slot_of_name.end() || !isSameElsewhere(*s.bodies[known->second], in[i])) {
+    const std::uint32_t slot = slotOf(in[i]->name);
+    if (slot == Structure::kNone || !isSameElsewhere(*bodies[slot], *in[i])) {
       entering.push_back(i);
       continue;
     }
-    ids[i] = {known->second, s.slots[known->second].generation};
-    staying.push_back(known->second);
+    ids[i] = {slot, slots[slot].generation};
+    staying.push_back(slot);
   }
   std::sort(staying.begin(), staying.end());
   const auto stays = [&](std::uint32_t slot) { return std::binary_search(staying.begin(), staying.end(), slot); };
   leaving.erase(std::remove_if(leaving.begin(), leaving.end(), stays), leaving.end());
-  const std::vector<std::uint32_t> numbers = s.slotsFor(leaving, entering.size());
+  const std::vector<std::uint32_t> numbers = slotsFor(leaving, entering.size());
   std::map<std::string, std::uint32_t> names;
   for (std::size_t i = 0; i < entering.size(); ++i) {
-    names.emplace_hint(names.end(), in[entering[i]].name, numbers[i]);  // fast if the names are sorted
+    names.emplace_hint(names.end(), in[entering[i]]->name, numbers[i]);  // fast if the names are sorted
   }
-  const std::size_t last = numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end()) + std::size_t{1};
-  s.reserveSlots(std::max(s.slots.size(), last));
-  std::vector<std::shared_ptr<const Body>> shared;
-  for (Body& body : in) shared.push_back(std::make_shared<const Body>(std::move(body)));
+  reserveSlots(numbers);
+  left.reserve(left.size() + leaving.size() + staying.size());
   // The code below allocates no memory, so it cannot fail.
-  for (const std::uint32_t slot : leaving) s.takeOut(slot);
-  s.slot_of_name.merge(names);
-  for (std::size_t i = 0; i < entering.size(); ++i) {
-    s.putIn(numbers[i], std::move(shared[entering[i]]));
-    ids[entering[i]] = {numbers[i], s.slots[numbers[i]].generation};
+  const auto leaves = [this](std::uint32_t slot) {
+    const std::uint32_t body = placeOf(slot);
+    if (body != Structure::kNone) left.push_back(body);
+    return body != Structure::kNone;
+  };
+  for (const std::uint32_t slot : leaving) {
+    if (!leaves(slot)) entered.erase(bodies[slot]->name);
+    takeOut(slot);
   }
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (shared[i]) s.bodies[ids[i].slot] = std::move(shared[i]);  // this body keeps its slot
-  }
-  s.bodies_changed = s.bodies_changed || !out.empty() || !ids.empty();
-  s.structure_changed = s.structure_changed || s.bodies_changed;
+  for (const std::uint32_t slot : staying) leaves(slot);
+  entered.merge(names);
+  for (std::size_t i = 0; i < entering.size(); ++i) ids[entering[i]] = putIn(numbers[i], in[entering[i]]);
+  for (std::size_t i = 0; i < ids.size(); ++i) bodies[ids[i].slot] = std::move(in[i]);  // also those that kept a slot
+  structure_changed = structure_changed || !out.empty() || !ids.empty();
   return ids;
+}
+
+std::vector<BodyId> Scene::exchange(const std::vector<BodyId>& out, std::vector<Body> in) {
+  EnteringBodies shared;
+  shared.reserve(in.size());
+  for (Body& body : in) shared.push_back(std::make_shared<const Body>(std::move(body)));
+  return state_->exchange(out, std::move(shared));
 }
 
 BodyId Scene::add(Body body) {
@@ -272,9 +215,9 @@ BodyId Scene::add(Body body) {
 void Scene::remove(BodyId id) { exchange({id}, {}); }
 
 bool Scene::find(const std::string& name, BodyId& id) const {
-  const auto found = state_->slot_of_name.find(name);
-  if (found == state_->slot_of_name.end()) return false;
-  id = {found->second, state_->slots[found->second].generation};
+  const std::uint32_t slot = state_->slotOf(name);
+  if (slot == Structure::kNone) return false;
+  id = {slot, state_->slots[slot].generation};
   return true;
 }
 
@@ -282,7 +225,7 @@ const Body& Scene::body(BodyId id) const {
   state_->at(id);
   return *state_->bodies[id.slot];
 }
-std::size_t Scene::size() const { return state_->slot_of_name.size(); }
+std::size_t Scene::size() const { return state_->body_count; }
 const BodyPose& Scene::poseOf(BodyId id) const { return state_->at(id).pose; }
 
 void Scene::checkPlace(BodyId id, const Pose& world_from_body) const {
@@ -385,7 +328,6 @@ void Scene::tune(const SceneTuning& tuning) {
   }
   // A new structure makes the next commit compute everything that it otherwise keeps from the last one.
   s.structure_changed = true;
-  s.sizes_changed = s.sizes_changed || s.options.margin != tuning.margin;
   s.options.margin = tuning.margin;
   s.options.growth_cap = tuning.growth_cap;
   s.options.horizon = tuning.horizon;

@@ -18,7 +18,9 @@
 #include "world/map_pairs.h"
 #include "world/pair_events.h"
 #include "world/plane_pairs.h"
+#include "world/prepared_bodies.h"
 #include "world/recent_changes.h"
+#include "world/scene_structure.h"
 #include "world/snapshot_pool.h"
 
 namespace hgrid {
@@ -48,6 +50,7 @@ struct Scene::State {
 
   explicit State(const SceneOptions& scene_options)
       : options(scene_options),
+        first_options(scene_options),
         limits(PairLimits::of(scene_options.max_pairs)),
         building(buildingFrom(scene_options.building, scene_options.origin)),
         horizon(scene_options.horizon, scene_options.growth_cap),
@@ -61,6 +64,7 @@ struct Scene::State {
   void noteChange(std::uint32_t slot);
 
   SceneOptions options;
+  const SceneOptions first_options;  // those of the start; they never change, so any thread may read them
   PairLimits limits;
   const std::shared_ptr<const Building> building;  // relative to options.origin; null: there are no rooms
   std::vector<Slot> slots;
@@ -68,21 +72,31 @@ struct Scene::State {
   std::vector<std::shared_ptr<const MapCells>> cells;  // the cells of the body in each slot; null: it has no cells
   std::size_t plane_count = 0;                         // number of planes of all bodies
   std::vector<std::uint32_t> free_slots;               // indices of the unused slots; has capacity for all slots
-  std::map<std::string, std::uint32_t> slot_of_name;   // sorted by name, like Structure::bodies
-  bool structure_changed = true;                       // whether bodies or rules changed since the last commit
-  bool bodies_changed = true;                          // whether bodies changed since the last commit
-  bool rules_changed = true;                           // whether rules changed since the last commit
-  bool sizes_changed = false;                          // whether `sizes` are those of another margin
-  std::optional<PreparedRules> prepared;               // has the same rules as options.allowed_pairs
-  std::vector<NameMatches> name_matches;               // see Scene::prepareNames(); the oldest come first
+  std::size_t body_count = 0;                          // number of bodies in the scene
+  std::map<std::string, std::uint32_t> entered;        // slots of the bodies that `structure` lacks, by name
+  std::vector<std::uint32_t> left;        // bodies of `structure` that left or were replaced; some occur twice
+  bool structure_changed = true;          // whether `structure` is out of date
+  bool rules_changed = true;              // whether the rules are others than those of `structure`
+  std::optional<PreparedRules> prepared;  // has the same rules as options.allowed_pairs
+  std::vector<NameMatches> name_matches;  // see Scene::prepareNames(); the oldest come first
   std::uint64_t sequence = 0, epoch = 0, commits = 0;
 
+  bool isThere(BodyId id) const {
+    return id.slot < slots.size() && slots[id.slot].used && slots[id.slot].generation == id.generation;
+  }
+  std::uint32_t slotOf(const std::string& name) const;
+  std::uint32_t placeOf(std::uint32_t slot) const;
   std::vector<std::uint32_t> checkedSlots(const std::vector<BodyId>& out);
-  void checkIn(const std::vector<std::uint32_t>& leaving, const std::vector<Body>& in) const;
   std::vector<std::uint32_t> slotsFor(const std::vector<std::uint32_t>& leaving, std::size_t count) const;
-  void reserveSlots(std::size_t count);
+  std::size_t reserveSlots(const std::vector<std::uint32_t>& numbers);
   void takeOut(std::uint32_t slot);
-  void putIn(std::uint32_t slot, std::shared_ptr<const Body>&& body);
+  BodyId putIn(std::uint32_t slot, std::shared_ptr<const Body> body);
+  std::vector<BodyId> exchange(const std::vector<BodyId>& out, EnteringBodies in);
+
+  // prepared_bodies.cpp: changes whose lists were made before.
+
+  bool isUpToDate(const PreparedBodies::Data& prepared, const std::vector<BodyId>& out) const;
+  std::vector<BodyId> exchange(PreparedBodies::Data& prepared);
 
   // commit.cpp: Scene::commit() makes a snapshot. Its last step is accept(), which cannot fail. The steps before it do
   // not overwrite results of the last commit. They write to separate members, or they write what the next commit would
@@ -94,6 +108,7 @@ struct Scene::State {
   void fillBodies(Snapshot& snapshot);
   void fillAllBodies(Snapshot& snapshot);
   void fillChangedBodies(Snapshot& snapshot);
+  void keepBoxes(Snapshot& snapshot) const;
   void fillPose(std::uint32_t body, Snapshot& snapshot) const;
   bool fillBoxes(std::uint32_t body, Snapshot& snapshot);
   void summarizePoses(Snapshot& snapshot);
@@ -102,11 +117,13 @@ struct Scene::State {
   void addPair(std::uint32_t first, std::uint32_t second, double gap, double margin, bool near);
   bool isCandidate(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second);
 
-  // next_structure.cpp: makes a new structure after bodies, rules or margins changed.
+  // new_structure.cpp: makes a new structure after bodies, rules or margins changed.
 
-  void rebuildStructure();
+  void renewStructure();
+  BodyChange changeOfBodies() const;
   PairFilter filterFor(const BodyList& next, const std::vector<std::uint32_t>& known) const;
-  void keepBoxes(Snapshot& snapshot) const;
+  void setStructure(std::shared_ptr<const SceneStructure> next, std::vector<std::uint32_t> places,
+                    std::vector<bool> watched);
 
   // grown_boxes.cpp: grows the boxes by their margins and stores them in the broad phase.
 
@@ -123,18 +140,12 @@ struct Scene::State {
 
   // completeness.cpp: decides which sources are complete.
 
-  void fillSources(Structure& structure) const;
   void fillCompleteness(Snapshot& snapshot, const std::vector<SourceGap>& gaps) const;
   void fillDoubtful(Snapshot& snapshot) const;
 
-  std::shared_ptr<const Structure> structure = std::make_shared<Structure>();
-  std::vector<std::uint32_t> uncovered;     // bodies of the structure that are neither covered nor waived, ascending
-  std::vector<const BodyShape*> shapes;     // indexed by the proxies of the structure; its bodies own the shapes
-  std::vector<std::uint32_t> body_of_slot;  // index of the body in the structure; kNone: the slot is not used
-  std::vector<Aabb> sizes;                  // [m] for each proxy: the box of its shape in its own frame, see sizeOf()
+  std::shared_ptr<const SceneStructure> structure = std::make_shared<SceneStructure>();
+  std::vector<std::uint32_t> body_of_slot;  // index of the body in `structure`; kNone: it is not there
   std::shared_ptr<const Snapshot> last;     // snapshot of the last commit; null before the first one
-  GridScale scale;
-  std::vector<ProxyId> fixed_proxies;
   Horizon horizon;
   MapPairs map_pairs;
   PlanePairs plane_pairs;

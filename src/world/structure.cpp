@@ -4,7 +4,7 @@
 
 namespace hgrid {
 
-std::uint32_t Structure::find(const std::string& name) const {
+std::uint32_t Structure::placeOf(const std::string& name) const {
   std::uint32_t begin = 0, end = static_cast<std::uint32_t>(bodies.size());
   while (begin < end) {
     const std::uint32_t middle = begin + (end - begin) / 2;
@@ -14,7 +14,12 @@ std::uint32_t Structure::find(const std::string& name) const {
       end = middle;
     }
   }
-  return begin < bodies.size() && bodies[begin].name == name ? begin : kNone;
+  return begin;
+}
+
+std::uint32_t Structure::find(const std::string& name) const {
+  const std::uint32_t place = placeOf(name);
+  return place < bodies.size() && bodies[place].name == name ? place : kNone;
 }
 
 }  // namespace hgrid

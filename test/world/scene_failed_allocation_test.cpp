@@ -56,6 +56,22 @@ Step exchanging(const std::string& source, const std::vector<Body>& in, const st
           }};
 }
 
+/// As exchanging(), but the lists of the scene are prepared.
+Step exchangingPrepared(const std::string& source, const std::vector<Body>& in, const std::vector<std::string>& names) {
+  return {"exchange prepared " + source, [=](Scene& scene, Snapshots& snapshots) {
+            std::vector<BodyId> out;
+            std::vector<std::string> leaving;
+            for (const std::string& name : names) {
+              BodyId id;
+              if (name.compare(0, source.size() + 1, source + "/") != 0 || !scene.find(name, id)) continue;
+              out.push_back(id);
+              leaving.push_back(name);
+            }
+            const std::size_t newest = snapshots.size() - 1;
+            scene.exchangePrepared(out, scene.prepare(*snapshots[newest], leaving, in));
+          }};
+}
+
 Step settingCells(const std::string& name, const std::shared_ptr<const MapCells>& cells) {
   return {"cells of " + name, [=](Scene& scene, Snapshots&) {
             BodyId id;
@@ -140,7 +156,7 @@ class Writer {
   std::shared_ptr<const MapCells> cells() { return test::cellsOf(0.25, test::randomVoxels(random_, 30, 8)); }
 
   void change() {
-    switch (random_.below(7)) {
+    switch (random_.below(8)) {
       case 0:
         return add(test::randomBody(random_, "new" + std::to_string(++number_)));
       case 1:
@@ -150,12 +166,17 @@ class Writer {
         for (Body& body : bodies) body.margin = test::sixtyFourths(random_, 0, 1);
         return script_.steps.push_back(exchanging("arm", bodies, names_));
       }
-      case 3:
+      case 3: {
+        std::vector<Body> bodies = test::armBodies("arm");
+        for (Body& body : bodies) body.margin = test::sixtyFourths(random_, 0, 1);
+        return script_.steps.push_back(exchangingPrepared("arm", bodies, names_));
+      }
+      case 4:
         return script_.steps.push_back(
             exchanging("map", {test::mapBody("room", Mobility::moving), test::mapBody("shelf")}, names_));
-      case 4:
-        return script_.steps.push_back(settingCells(random_.chance(0.5) ? "map/room" : "map/shelf", cells()));
       case 5:
+        return script_.steps.push_back(settingCells(random_.chance(0.5) ? "map/room" : "map/shelf", cells()));
+      case 6:
         return script_.steps.push_back(
             settingRules({test::allow("arm/*", random_.chance(0.5) ? "map/*" : "obstacle/*")}));
       default:

@@ -55,6 +55,8 @@ class BodyList {
   std::size_t size() const { return bodies_.size(); }
   /// Returns a body by its index, which must be less than size().
   const Body& operator[](std::size_t index) const { return *bodies_[index]; }
+  /// Returns a body by its index. The result is never null and keeps the body alive.
+  const std::shared_ptr<const Body>& share(std::size_t index) const { return bodies_[index]; }
   /// Returns an iterator to the first body.
   Iterator begin() const { return Iterator(bodies_.data()); }
   /// Returns an iterator to the place behind the last body.

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "hgrid_proximity/world/scene.h"
+#include "world/entering_bodies.h"
+#include "world/scene_structure.h"
+
+namespace hgrid {
+
+/// The content of a PreparedBodies.
+struct PreparedBodies::Data {
+  std::shared_ptr<const SceneStructure> before;  ///< the structure for which the lists below were made
+  EnteringBodies in;                             ///< in the order of the caller
+  std::vector<std::uint32_t> out;                ///< indices in `before` of the bodies that leave, ascending
+  std::vector<std::size_t> sorted;               ///< indices of the elements of `in`, sorted by the names of the bodies
+  BodyChange change;                             ///< what changes; change.in is in the order of `sorted`
+  std::vector<std::uint32_t> places;             ///< for each element of change.in: its index in `next`
+  std::shared_ptr<SceneStructure> next;          ///< new bodies have no handles yet
+  std::vector<bool> watched;                     ///< false for each body of `next`
+};
+
+}  // namespace hgrid
