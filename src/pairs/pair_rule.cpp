@@ -35,6 +35,11 @@ void checkName(const std::string& name, const char* what) {
 
 }  // namespace
 
+bool PairRule::operator==(const PairRule& other) const {
+  return first == other.first && second == other.second && reason == other.reason && allowed == other.allowed &&
+         origin == other.origin && ends == other.ends && set_by == other.set_by && since == other.since;
+}
+
 bool isGlob(const std::string& name) { return name.find_first_of("*?") != std::string::npos; }
 
 void checkRule(const PairRule& rule) {

@@ -258,7 +258,7 @@ std::shared_ptr<const Snapshot> Scene::commit(Time stamp, const std::vector<Sour
   using Clock = std::chrono::steady_clock;
   State& s = *state_;
   const auto begin = Clock::now();
-  if (s.structure_changed) s.renewStructure();
+  if (s.isOutdated()) s.renewStructure();
   const std::shared_ptr<PooledSnapshot> pooled = s.freshSnapshot();
   Snapshot& snapshot = pooled->snapshot;
   snapshot.origin_ = s.options.origin;

@@ -59,7 +59,8 @@ void Scene::State::setStructure(std::shared_ptr<const SceneStructure> next, std:
   for (std::uint32_t body = 0; body < structure->ids.size(); ++body) body_of_slot[structure->ids[body].slot] = body;
   entered.clear();
   left.clear();
-  structure_changed = rules_changed = false;
+  options_changed = false;
+  rules_changed = options.allowed_pairs != structure->filter.rules();
   prepared.reset();
   name_matches.clear();
 }

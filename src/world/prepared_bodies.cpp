@@ -29,7 +29,8 @@ PreparedBodies::PreparedBodies(PreparedBodies&&) noexcept = default;
 PreparedBodies& PreparedBodies::operator=(PreparedBodies&&) noexcept = default;
 PreparedBodies::~PreparedBodies() = default;
 
-PreparedBodies Scene::prepare(const Snapshot& newest, const std::vector<std::string>& out, std::vector<Body> in) const {
+PreparedBodies Scene::prepare(const Snapshot& newest, const std::vector<std::string>& out, std::vector<Body> in,
+                              const std::optional<std::vector<PairRule>>& rules) const {
   const SceneOptions& options = state_->first_options;
   PreparedBodies prepared;
   PreparedBodies::Data& data = *prepared.data_;
@@ -73,6 +74,7 @@ PreparedBodies Scene::prepare(const Snapshot& newest, const std::vector<std::str
   }
   data.next = nextStructure(before, data.change, before.least_margin, options,
                             [&](const BodyList& bodies, const std::vector<std::uint32_t>& known) {
+                              if (rules) return PairFilter(bodies, options.pair_kinds, *rules);
                               return before.filter.forBodies(bodies, known);
                             });
   for (const EnteringBody& entering : data.change.in) data.places.push_back(data.next->find(entering.body->name));
@@ -88,7 +90,7 @@ std::vector<BodyId> Scene::exchangePrepared(const std::vector<BodyId>& out, Prep
 
 /// Returns whether the lists are still right, and a change removes the bodies for which they were made.
 bool Scene::State::isUpToDate(const PreparedBodies::Data& prepared, const std::vector<BodyId>& out) const {
-  if (structure_changed || structure != prepared.before || out.size() != prepared.out.size()) return false;
+  if (isOutdated() || structure != prepared.before || out.size() != prepared.out.size()) return false;
   std::vector<BodyId> expected;
   expected.reserve(out.size());
   for (const std::uint32_t body : prepared.out) expected.push_back(structure->ids[body]);

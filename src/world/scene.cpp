@@ -195,7 +195,6 @@ std::vector<BodyId> Scene::State::exchange(const std::vector<BodyId>& out, Enter
   entered.merge(names);
   for (std::size_t i = 0; i < entering.size(); ++i) ids[entering[i]] = putIn(numbers[i], in[entering[i]]);
   for (std::size_t i = 0; i < ids.size(); ++i) bodies[ids[i].slot] = std::move(in[i]);  // also those that kept a slot
-  structure_changed = structure_changed || !out.empty() || !ids.empty();
   return ids;
 }
 
@@ -277,7 +276,7 @@ void Scene::setCells(BodyId id, std::shared_ptr<const MapCells> cells) {
 void Scene::setRules(std::vector<PairRule> rules) {
   state_->options.allowed_pairs = std::move(rules);
   state_->prepared.reset();
-  state_->structure_changed = state_->rules_changed = true;
+  state_->rules_changed = state_->options.allowed_pairs != state_->structure->filter.rules();
 }
 
 void Scene::setPreparedRules(PreparedRules prepared) {
@@ -287,7 +286,7 @@ void Scene::setPreparedRules(PreparedRules prepared) {
 
 void Scene::removeRules(const std::vector<bool>& gone) {
   State& s = *state_;
-  if (!s.structure_changed) {
+  if (!s.rules_changed) {
     setPreparedRules({s.structure->filter.without(gone), s.structure->revision});
   } else if (s.prepared) {
     setPreparedRules({s.prepared->filter.without(gone), s.prepared->revision});
@@ -327,7 +326,7 @@ void Scene::tune(const SceneTuning& tuning) {
     return;
   }
   // A new structure makes the next commit compute everything that it otherwise keeps from the last one.
-  s.structure_changed = true;
+  s.options_changed = true;
   s.options.margin = tuning.margin;
   s.options.growth_cap = tuning.growth_cap;
   s.options.horizon = tuning.horizon;

@@ -75,8 +75,8 @@ struct Scene::State {
   std::size_t body_count = 0;                          // number of bodies in the scene
   std::map<std::string, std::uint32_t> entered;        // slots of the bodies that `structure` lacks, by name
   std::vector<std::uint32_t> left;        // bodies of `structure` that left or were replaced; some occur twice
-  bool structure_changed = true;          // whether `structure` is out of date
-  bool rules_changed = true;              // whether the rules are others than those of `structure`
+  bool options_changed = true;            // whether `structure` was made with other options
+  bool rules_changed = true;              // whether options.allowed_pairs are others than the rules of `structure`
   std::optional<PreparedRules> prepared;  // has the same rules as options.allowed_pairs
   std::vector<NameMatches> name_matches;  // see Scene::prepareNames(); the oldest come first
   std::uint64_t sequence = 0, epoch = 0, commits = 0;
@@ -84,6 +84,8 @@ struct Scene::State {
   bool isThere(BodyId id) const {
     return id.slot < slots.size() && slots[id.slot].used && slots[id.slot].generation == id.generation;
   }
+  /// Returns whether the next commit must make a new structure.
+  bool isOutdated() const { return options_changed || rules_changed || !entered.empty() || !left.empty(); }
   std::uint32_t slotOf(const std::string& name) const;
   std::uint32_t placeOf(std::uint32_t slot) const;
   std::vector<std::uint32_t> checkedSlots(const std::vector<BodyId>& out);

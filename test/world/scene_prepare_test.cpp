@@ -32,20 +32,25 @@ class Twins {
       std::vector<Body> in;
       choose(out, in);
       PreparedBodies prepared = prepare(out, in);
-      const int kind = random_.below(8);
+      const int kind = random_.below(11);
       if (kind == 0) {
         ASSERT_NO_FATAL_FAILURE(addAnother());
       }
-      if (kind == 1) setRules();
+      if (kind == 1) setRules(someRules());
       if (kind == 2) tune();
       if (kind == 3) {
         ASSERT_NO_FATAL_FAILURE(commit());
       }
       if (kind == 4) prepared = prepare(out, in);  // replaces lists that were never used
+      const std::vector<PairRule> rules = someRules();
+      if (kind >= 8) prepared = twin_.prepare(*newest_, out, in, rules);
       const std::uint64_t before = twin_.revision();
       ASSERT_NO_FATAL_FAILURE(exchange(out, in, std::move(prepared)));
       used_ += twin_.revision() > before ? 1 : 0;
-      if (kind == 5) setRules();
+      if (kind == 5) setRules(someRules());
+      if (kind == 8) setRules(rules);        // as expected
+      if (kind == 9) setRules(someRules());  // others than expected
+      // If kind is 10, no rules are set, although some were expected.
       if (kind == 6) {
         ASSERT_NO_FATAL_FAILURE(addAnother());
       }
@@ -126,8 +131,10 @@ class Twins {
     const std::string name = "x" + std::to_string(++others_);
     ids_["obstacle/" + name] = {plain_.add(test::ball(name)), twin_.add(test::ball(name))};
   }
-  void setRules() {
-    const std::vector<PairRule> rules = {test::allow("obstacle/o" + std::to_string(random_.below(9)) + "*", "*")};
+  std::vector<PairRule> someRules() {
+    return {test::allow("obstacle/o" + std::to_string(random_.below(9)) + "*", "*")};
+  }
+  void setRules(const std::vector<PairRule>& rules) {
     plain_.setRules(rules);
     twin_.setRules(rules);
   }
@@ -156,6 +163,7 @@ class Twins {
     ASSERT_EQ(a.absent, b.absent);
     ASSERT_EQ(a.margin, b.margin);
     ASSERT_EQ(a.silenced, b.silenced);
+    ASSERT_TRUE(a.filter.rules() == b.filter.rules());
   }
 
   test::Random random_;

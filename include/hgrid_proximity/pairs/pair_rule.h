@@ -28,6 +28,11 @@ struct PairRule {
   Clock::time_point ends = Clock::time_point::max();  ///< when the rule ends; max: never
   std::string set_by = {};                            ///< who set the rule at run time; empty for other rules
   Time since{0};                                      ///< when the rule was set at run time; 0 for other rules
+
+  /// Whether both rules are equal in all members.
+  bool operator==(const PairRule& other) const;
+  /// Whether the rules differ in at least one member.
+  bool operator!=(const PairRule& other) const { return !(*this == other); }
 };
 
 /// Maximum length [bytes] of each name, glob and reason in a rule.

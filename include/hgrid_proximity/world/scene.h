@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -121,8 +122,11 @@ class Scene {
   /// takes long if there are many bodies, so any thread may call it, while others use the scene.
   /// @param newest  a snapshot of this scene, which should still be the newest one in exchangePrepared()
   /// @param out     names of the bodies to be removed
+  /// @param rules   the rules that setRules() will set after exchangePrepared(), before the next commit; nullopt: those
+  ///                of the snapshot stay
   /// @throws Refusal as exchange(), for the bodies of the snapshot
-  PreparedBodies prepare(const Snapshot& newest, const std::vector<std::string>& out, std::vector<Body> in) const;
+  PreparedBodies prepare(const Snapshot& newest, const std::vector<std::string>& out, std::vector<Body> in,
+                         const std::optional<std::vector<PairRule>>& rules = std::nullopt) const;
   /// As exchange(). Takes much less time if `in` was prepared for the same bodies `out`, and neither bodies nor rules
   /// nor settings changed since the snapshot. Otherwise the result is the same, but the next commit() takes longer.
   std::vector<BodyId> exchangePrepared(const std::vector<BodyId>& out, PreparedBodies in);
