@@ -52,6 +52,8 @@ class ProximityNode {
   void beginTicks();
   std::vector<TickLoop::Step> tickSteps();
   std::vector<Chore> chores();
+  std::shared_ptr<PreparedObstacles> prepareObstacles(const ObstacleChanges& changes,
+                                                      const std::vector<PairRule>* rules) const;
   std::shared_ptr<const Tick> changeWorld(const TickJobs::Job& job);
   void takeOver(const Params& params);
 
@@ -61,7 +63,7 @@ class ProximityNode {
   Commons commons_;
   QuerySketch sketch_;
   StateKeeper state_;
-  World world_;  // only the tick thread uses it; all threads may use its transforms
+  World world_;  // only the tick thread uses it; all threads may use its transforms and prepareObstacles()
   TickJobs jobs_;
   Stopwatch stopwatch_;  // only the tick thread uses it
   Auditor auditor_;

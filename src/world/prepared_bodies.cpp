@@ -22,6 +22,13 @@ std::vector<std::uint32_t> slotsOf(const std::vector<BodyId>& ids) {
   return slots;
 }
 
+std::vector<std::string> namesOf(const EnteringBodies& bodies) {
+  std::vector<std::string> names;
+  names.reserve(bodies.size());
+  for (const std::shared_ptr<const Body>& body : bodies) names.push_back(body->name);
+  return names;
+}
+
 }  // namespace
 
 PreparedBodies::PreparedBodies() : data_(std::make_unique<Data>()) {}
@@ -72,10 +79,11 @@ PreparedBodies Scene::prepare(const Snapshot& newest, const std::vector<std::str
       data.change.in.push_back({body, {}});
     }
   }
+  if (!rules) data.matches = before.filter.match(namesOf(data.in));
   data.next = nextStructure(before, data.change, before.least_margin, options,
                             [&](const BodyList& bodies, const std::vector<std::uint32_t>& known) {
                               if (rules) return PairFilter(bodies, options.pair_kinds, *rules);
-                              return before.filter.forBodies(bodies, known);
+                              return before.filter.forBodies(bodies, known, {data.matches});
                             });
   for (const EnteringBody& entering : data.change.in) data.places.push_back(data.next->find(entering.body->name));
   data.watched.resize(data.next->bodies.size());
@@ -85,7 +93,10 @@ PreparedBodies Scene::prepare(const Snapshot& newest, const std::vector<std::str
 std::vector<BodyId> Scene::exchangePrepared(const std::vector<BodyId>& out, PreparedBodies prepared) {
   PreparedBodies::Data& data = *prepared.data_;
   if (state_->isUpToDate(data, out)) return state_->exchange(data);
-  return state_->exchange(out, std::move(data.in));  // the next commit makes the lists
+  // The next commit makes the lists.
+  std::vector<BodyId> ids = state_->exchange(out, std::move(data.in));
+  if (!data.matches.names.empty()) prepareNames(std::move(data.matches));
+  return ids;
 }
 
 /// Returns whether the lists are still right, and a change removes the bodies for which they were made.

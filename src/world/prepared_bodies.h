@@ -23,6 +23,7 @@ struct PreparedBodies::Data {
   std::vector<std::uint32_t> places;             ///< for each element of change.in: its index in `next`
   std::shared_ptr<SceneStructure> next;          ///< new bodies have no handles yet
   std::vector<bool> watched;                     ///< false for each body of `next`
+  NameMatches matches;                           ///< of the names of `in`, if the rules stay: for Scene::prepareNames()
 };
 
 }  // namespace hgrid

@@ -25,8 +25,8 @@ class MoveItInterface {
   /// @param is_ending  returns whether the node is shutting down
   /// All other parameters must outlive this object.
   MoveItInterface(ros::NodeHandle node, const ros::NodeHandle& query_node, Commons& commons, const MapSource& maps,
-                  TickJobs& jobs, const ChangeWorld& change_world, NewestTick newest, const TransformLookup& transforms,
-                  std::function<bool()> is_ending)
+                  TickJobs& jobs, const PrepareObstacles& prepare_obstacles, const ChangeWorld& change_world,
+                  NewestTick newest, const TransformLookup& transforms, std::function<bool()> is_ending)
       : node_(std::move(node)),
         commons_(commons),
         octomap_(maps, jobs, commons.ledger),
@@ -34,7 +34,7 @@ class MoveItInterface {
         newest_(std::move(newest)),
         is_ending_(std::move(is_ending)) {
     if (!commons.settings.params.moveit_services) return;
-    services_.emplace(node_, commons, octomap_, gaps_, newest_, change_world);
+    services_.emplace(node_, commons, octomap_, gaps_, prepare_obstacles, change_world);
     validity_.emplace(query_node, commons, newest_, transforms);
   }
 

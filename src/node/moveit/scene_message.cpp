@@ -110,7 +110,7 @@ void ReadScene::note(const moveit::PlanningScene<release>& scene, const SceneRea
   extras_ = reader.extrasOf(scene);
 }
 
-void ReadScene::applyTo(World& world, Time now) {
+void ReadScene::applyTo(World& world, Time now, PreparedObstacles* prepared) {
   if (isDone()) return;
   try {
     LinkPaddings paddings;
@@ -119,7 +119,7 @@ void ReadScene::applyTo(World& world, Time now) {
       paddings = paddingsAfter(*extras_, world.linkPaddings(), most_paddings_);
       matrix = extras_->matrix;
     }
-    world.applyObstacles(changes_, now);
+    world.applyObstacles(changes_, now, prepared);
     // The code below does not throw.
     applied_ = true;
     if (extras_) world.setLinkPaddings(std::move(paddings));

@@ -29,7 +29,8 @@ class ReadScene {
   ReadScene(const Refusal& dropped, bool is_scene);
 
   /// Applies the message to the world. If this fails, refused() says why. Only the tick thread may call this.
-  void applyTo(World& world, Time now);
+  /// @param prepared  see World::applyObstacles()
+  void applyTo(World& world, Time now, PreparedObstacles* prepared = nullptr);
   /// Notes what the world lacks after applyTo(). Only the tick thread may call this.
   void noteIn(SceneGaps& gaps) const;
 

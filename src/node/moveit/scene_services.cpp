@@ -21,12 +21,12 @@
 namespace hgrid {
 
 SceneServices::SceneServices(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps,
-                             NewestTick newest, ChangeWorld change_world)
+                             PrepareObstacles prepare, ChangeWorld change_world)
     : commons_(commons),
       reader_(commons.settings.params, *commons.narrow_phase),
       octomap_(octomap),
       gaps_(gaps),
-      newest_(std::move(newest)),
+      prepare_(std::move(prepare)),
       change_world_(std::move(change_world)) {
   serve<moveit::GetPlanningScene>(node, "get_planning_scene", "moveit.get_failed", &SceneServices::get);
   serve<moveit::ApplyPlanningScene>(node, "apply_planning_scene", "moveit.apply_failed", &SceneServices::apply);
@@ -46,15 +46,15 @@ void SceneServices::serve(ros::NodeHandle& node, const char* name, const char* f
 void SceneServices::get(const moveit::GetPlanningScene::Request& request,
                         moveit::GetPlanningScene::Response& response) {
   struct Present {
-    std::map<std::string, PlacedObstacle> obstacles;
+    std::shared_ptr<const PlacedObstacles> obstacles;
     std::vector<MatrixRule> matrix;
   };
   const auto present = std::make_shared<Present>();
   const auto tick = change_world_([present](World& world) {
-    present->obstacles = world.obstacles().all();
+    present->obstacles = world.obstacles().share();
     present->matrix = world.matrix();
   });
-  response.scene = planningScene(request.components, *tick, present->obstacles, present->matrix);
+  response.scene = planningScene(request.components, *tick, *present->obstacles, present->matrix);
 }
 
 void SceneServices::apply(const moveit::ApplyPlanningScene::Request& request,
@@ -66,10 +66,9 @@ void SceneServices::apply(const moveit::ApplyPlanningScene::Request& request,
     if (!request.scene.octomap.data.empty()) {
       map = std::make_shared<const LoadedMap>(octomap_.read(request.scene.octomap));
     }
-    const auto matches = matchNames(addedNames(read->changes()), newest_());
-    change_world_([read, map, matches, &gaps = gaps_](World& world) {
-      world.prepareNames(matches);
-      read->applyTo(world, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())));
+    const std::shared_ptr<PreparedObstacles> prepared = prepare_(read->changes(), nullptr);
+    change_world_([read, map, prepared, &gaps = gaps_](World& world) {
+      read->applyTo(world, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())), prepared.get());
       if (!read->applied()) throw *read->refused();
       read->noteIn(gaps);
       showGaps(gaps, world);

@@ -13,7 +13,6 @@
 #include "node/moveit/scene_octomap.h"
 #include "node/moveit/scene_types.h"
 #include "node/tick/change_world.h"
-#include "node/tick/newest_tick.h"
 
 namespace hgrid {
 
@@ -22,8 +21,8 @@ class SceneServices {
  public:
   /// @param node  the names of the services are resolved in its namespace; the thread of its callback queue serves them
   /// `commons`, `octomap` and `gaps` must outlive this object.
-  SceneServices(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps, NewestTick newest,
-                ChangeWorld change_world);
+  SceneServices(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps,
+                PrepareObstacles prepare, ChangeWorld change_world);
 
  private:
   template <class Service>
@@ -36,7 +35,7 @@ class SceneServices {
   SceneReader reader_;
   SceneOctomap& octomap_;
   SceneGaps& gaps_;  // only jobs use it
-  NewestTick newest_;
+  PrepareObstacles prepare_;
   ChangeWorld change_world_;
   std::vector<ros::ServiceServer> servers_;
 };

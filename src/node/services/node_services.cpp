@@ -10,9 +10,9 @@ namespace hgrid {
 
 NodeServices::NodeServices(const ros::NodeHandle& query_node, const ros::NodeHandle& batch_node,
                            const ros::NodeHandle& admin_node, Commons& commons, NewestTick newest,
-                           ChangeWorld change_world, const TransformLookup& transforms, const TickHistory& history,
-                           Loading& loading, StateKeeper& state, Guard& guard, Stopwatch& stopwatch,
-                           QuerySketch& sketch)
+                           PrepareObstacles prepare_obstacles, ChangeWorld change_world,
+                           const TransformLookup& transforms, const TickHistory& history, Loading& loading,
+                           StateKeeper& state, Guard& guard, Stopwatch& stopwatch, QuerySketch& sketch)
     : questions_(query_node, newest, commons.ledger),
       batch_questions_(batch_node, newest, commons.ledger),
       changes_(admin_node, newest, commons.ledger),
@@ -30,11 +30,11 @@ NodeServices::NodeServices(const ros::NodeHandle& query_node, const ros::NodeHan
               return state.waitUntilStored();
             }),
       obstacles_(changes_, commons.settings.params, commons.narrow_phase,
-                 meshPolicy(commons.settings.params, loading.isEnding()), change_world,
+                 meshPolicy(commons.settings.params, loading.isEnding()), prepare_obstacles, change_world,
                  [&state] { return state.waitUntilStored(); }),
       robots_(changes_, commons.settings.params, loading.robots(), change_world,
               [&state] { return state.waitUntilStored(); }),
-      scenes_(changes_, commons.settings.params, commons.narrow_phase, change_world,
+      scenes_(changes_, commons.settings.params, commons.narrow_phase, prepare_obstacles, change_world,
               [&state] { return state.waitUntilStored(); }),
       reset_(
           changes_,

@@ -36,9 +36,9 @@ class NodeServices {
   /// @param admin_node  private node handle of the thread that serves requests that change the world
   /// All other parameters must outlive this object.
   NodeServices(const ros::NodeHandle& query_node, const ros::NodeHandle& batch_node, const ros::NodeHandle& admin_node,
-               Commons& commons, NewestTick newest, ChangeWorld change_world, const TransformLookup& transforms,
-               const TickHistory& history, Loading& loading, StateKeeper& state, Guard& guard, Stopwatch& stopwatch,
-               QuerySketch& sketch);
+               Commons& commons, NewestTick newest, PrepareObstacles prepare_obstacles, ChangeWorld change_world,
+               const TransformLookup& transforms, const TickHistory& history, Loading& loading, StateKeeper& state,
+               Guard& guard, Stopwatch& stopwatch, QuerySketch& sketch);
 
   /// Drops the ticks of ended leases, and the checkers that no request has used for a second. Any thread may call this.
   /// @param epoch  the present epoch

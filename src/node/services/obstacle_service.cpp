@@ -12,7 +12,6 @@
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/pairs/pair_rule.h"
 #include "node/messages/obstacle_messages.h"
-#include "node/tick/match_names.h"
 #include "node/world/world.h"
 
 namespace hgrid {
@@ -51,11 +50,12 @@ void checkTouch(const ObstacleChanges& changes, const AnswerTick& tick, const Pa
 }  // namespace
 
 ObstacleService::ObstacleService(ServiceEnvelope& envelope, const Params& params,
-                                 std::shared_ptr<NarrowPhase> narrow_phase, MeshPolicy meshes, ChangeWorld change_world,
-                                 WaitUntilStored wait_until_stored)
+                                 std::shared_ptr<NarrowPhase> narrow_phase, MeshPolicy meshes, PrepareObstacles prepare,
+                                 ChangeWorld change_world, WaitUntilStored wait_until_stored)
     : params_(params),
       narrow_phase_(std::move(narrow_phase)),
       meshes_(std::move(meshes)),
+      prepare_(std::move(prepare)),
       change_world_(std::move(change_world)),
       wait_until_stored_(std::move(wait_until_stored)) {
   server_ = envelope.serve<msg::ApplyObstacles>("apply_obstacles",
@@ -69,10 +69,9 @@ void ObstacleService::apply(ServiceCall<msg::ApplyObstacles>& call) const {
         call.request, call.caller, params_, *narrow_phase_,
         [&](const std::string& uri, const Eigen::Vector3d& scale) { return files.load(uri, scale); }));
     checkTouch(*changes, call.tick, params_);
-    const auto matches = matchNames(addedNames(*changes), call.tick.get());
-    call.tick = AnswerTick(change_world_([changes, matches](World& world) {
-      world.prepareNames(matches);
-      world.applyObstacles(*changes, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())));
+    const std::shared_ptr<PreparedObstacles> prepared = prepare_(*changes, nullptr);
+    call.tick = AnswerTick(change_world_([changes, prepared](World& world) {
+      world.applyObstacles(*changes, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())), prepared.get());
     }));
     call.response.durable = wait_until_stored_();
   } catch (const ChangeRefusal& refusal) {

@@ -21,7 +21,8 @@ class ObstacleService {
   /// `envelope` and `params` must outlive this object.
   /// @param meshes  settings for reading the mesh files of obstacles
   ObstacleService(ServiceEnvelope& envelope, const Params& params, std::shared_ptr<NarrowPhase> narrow_phase,
-                  MeshPolicy meshes, ChangeWorld change_world, WaitUntilStored wait_until_stored);
+                  MeshPolicy meshes, PrepareObstacles prepare, ChangeWorld change_world,
+                  WaitUntilStored wait_until_stored);
 
  private:
   void apply(ServiceCall<msg::ApplyObstacles>& call) const;
@@ -29,6 +30,7 @@ class ObstacleService {
   const Params& params_;
   std::shared_ptr<NarrowPhase> narrow_phase_;
   MeshPolicy meshes_;
+  PrepareObstacles prepare_;
   ChangeWorld change_world_;
   WaitUntilStored wait_until_stored_;
   ros::ServiceServer server_;

@@ -5,7 +5,7 @@
 #include <ros/time.h>
 
 #include <algorithm>
-#include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -19,14 +19,6 @@
 
 namespace hgrid {
 namespace {
-
-/// A scene that is ready for a tick.
-struct PreparedScene {
-  std::vector<ObstacleChange> changes;
-  std::set<std::string> names;  ///< full names of its obstacles
-  PreparedRules rules;
-  std::shared_ptr<NameMatches> matches;  ///< result of matchNames() for `names` and `rules`; may be null
-};
 
 /// Checks that each name or glob is that of a body of the world or of an obstacle of the scene. @throws Refusal
 void checkNames(const std::vector<PairRule>& rules, const std::set<std::string>& obstacles, const BodyList& bodies) {
@@ -58,10 +50,11 @@ std::vector<PairRule> rulesAfter(std::vector<PairRule> present, const std::vecto
 }  // namespace
 
 SceneFileServices::SceneFileServices(ServiceEnvelope& envelope, const Params& params,
-                                     std::shared_ptr<NarrowPhase> narrow_phase, ChangeWorld change_world,
-                                     WaitUntilStored wait_until_stored)
+                                     std::shared_ptr<NarrowPhase> narrow_phase, PrepareObstacles prepare,
+                                     ChangeWorld change_world, WaitUntilStored wait_until_stored)
     : params_(params),
       narrow_phase_(std::move(narrow_phase)),
+      prepare_(std::move(prepare)),
       change_world_(std::move(change_world)),
       wait_until_stored_(std::move(wait_until_stored)) {
   servers_.push_back(
@@ -72,10 +65,10 @@ SceneFileServices::SceneFileServices(ServiceEnvelope& envelope, const Params& pa
 
 void SceneFileServices::save(ServiceCall<msg::SaveScene>& call) const {
   const SceneFolder file(params_.state_folder, call.request.name);
-  const auto obstacles = std::make_shared<std::map<std::string, PlacedObstacle>>();
-  call.tick = AnswerTick(change_world_([obstacles](World& world) { *obstacles = world.obstacles().all(); }));
+  const auto obstacles = std::make_shared<std::shared_ptr<const PlacedObstacles>>();
+  call.tick = AnswerTick(change_world_([obstacles](World& world) { *obstacles = world.obstacles().share(); }));
   const std::vector<PairRule>& rules = call.tick.snapshot().structure().filter.rules();
-  file.write(sceneText(*obstacles, rules, params_), call.request.replace);
+  file.write(sceneText(**obstacles, rules, params_), call.request.replace);
   call.response.path = file.path();
 }
 
@@ -83,44 +76,34 @@ void SceneFileServices::load(ServiceCall<msg::LoadScene>& call) const {
   const SceneFolder file(params_.state_folder, call.request.name);
   const SavedScene scene = readScene(file.read(), call.request.name + ".yaml", params_);
   const Structure& structure = call.tick.snapshot().structure();
-  std::vector<ObstacleChange> changes;
+  const auto changes = std::make_shared<ObstacleChanges>();
+  changes->without_groups = true;  // the file says where each obstacle of a group is
+  changes->complete = call.request.replace;
   std::set<std::string> names;
   for (const ObstacleParams& obstacle : scene.obstacles) {
     ObstacleChange change;
     change.name = obstacle.body.name;
     change.added = requestedOf(obstacle, params_, *narrow_phase_);
     change.replace = true;
-    changes.push_back(change);
+    changes->changes.push_back(change);
     names.insert(change.name);
     if (!obstacle.attached) continue;
     change.kind = ObstacleChange::Kind::attach;
     change.attachment = attachmentOf(obstacle);
-    changes.push_back(std::move(change));
+    changes->changes.push_back(std::move(change));
   }
   const std::vector<PairRule> rules =
       rulesAfter(structure.filter.rules(), scene.rules, call.request.replace, call.caller, params_);
   checkNames(scene.rules, names, structure.bodies);  // takes long for many rules, so their number was checked before
-  PreparedRules next_rules{PairFilter(structure.bodies, params_.pair_kinds, rules), structure.revision};
-  const auto matches = matchNames({names.begin(), names.end()}, next_rules.filter);
-  const auto prepared = std::make_shared<const PreparedScene>(
-      PreparedScene{std::move(changes), std::move(names), std::move(next_rules), matches});
-  call.tick = AnswerTick(change_world_([prepared, replace = call.request.replace](World& world) {
-    ObstacleChanges all;
-    all.without_groups = true;  // the file says where each obstacle of a group is
-    if (replace) {
-      for (const auto& present : world.obstacles().all()) {
-        if (prepared->names.count(present.first) != 0) continue;
-        ObstacleChange change;
-        change.kind = ObstacleChange::Kind::remove;
-        change.name = present.first;
-        all.changes.push_back(std::move(change));
-      }
-    }
-    all.changes.insert(all.changes.end(), prepared->changes.begin(), prepared->changes.end());
-    PreparedRules next = prepared->rules;  // copied first, because nothing may fail after the obstacles were changed
-    world.prepareNames(prepared->matches);
-    world.applyObstacles(all, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())));
-    world.setRules(std::move(next));
+  const auto next = std::make_shared<const PreparedRules>(
+      PreparedRules{PairFilter(structure.bodies, params_.pair_kinds, rules), structure.revision});
+  const auto matches = matchNames({names.begin(), names.end()}, next->filter);
+  const std::shared_ptr<PreparedObstacles> prepared = prepare_(*changes, &rules);
+  call.tick = AnswerTick(change_world_([changes, next, matches, prepared](World& world) {
+    PreparedRules copy = *next;  // copied first, because nothing may fail after the obstacles were changed
+    world.prepareNames(matches);
+    world.applyObstacles(*changes, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())), prepared.get());
+    world.setRules(std::move(copy));
   }));
   call.response.durable = wait_until_stored_();
 }

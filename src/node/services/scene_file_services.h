@@ -15,15 +15,15 @@
 
 namespace hgrid {
 
-/// Serves ~save_scene and ~load_scene. The thread that serves a request reads or writes the file; a tick only copies
-/// the obstacles, or adds the finished ones.
+/// Serves ~save_scene and ~load_scene. The thread that serves a request reads or writes the file; a tick only adds
+/// the finished obstacles.
 ///
 /// As with AllowedServices, only one thread may serve requests.
 class SceneFileServices {
  public:
   /// `envelope` and `params` must outlive this object.
   SceneFileServices(ServiceEnvelope& envelope, const Params& params, std::shared_ptr<NarrowPhase> narrow_phase,
-                    ChangeWorld change_world, WaitUntilStored wait_until_stored);
+                    PrepareObstacles prepare, ChangeWorld change_world, WaitUntilStored wait_until_stored);
 
  private:
   void save(ServiceCall<msg::SaveScene>& call) const;
@@ -31,6 +31,7 @@ class SceneFileServices {
 
   const Params& params_;
   std::shared_ptr<NarrowPhase> narrow_phase_;
+  PrepareObstacles prepare_;
   ChangeWorld change_world_;
   WaitUntilStored wait_until_stored_;
   std::vector<ros::ServiceServer> servers_;

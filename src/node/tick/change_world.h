@@ -4,16 +4,27 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
+
+#include "hgrid_proximity/pairs/pair_rule.h"
 
 namespace hgrid {
 
 class World;
+struct ObstacleChanges;
+struct PreparedObstacles;
 struct Tick;
 
 /// Changes the world at the beginning of a tick, waits until that tick, ~bodies and ~rules are published, and returns
 /// that tick.
 /// @throws whatever the change throws; Refusal busy if no tick makes the change in time
 using ChangeWorld = std::function<std::shared_ptr<const Tick>(const std::function<void(World&)>& change)>;
+
+/// Prepares World::applyObstacles() beside the ticks, for the present ROS time.
+/// @param rules  the rules that World::setRules() will set together with the changes; null: the rules stay
+/// @returns null if nothing can be prepared
+using PrepareObstacles = std::function<std::shared_ptr<PreparedObstacles>(const ObstacleChanges& changes,
+                                                                          const std::vector<PairRule>* rules)>;
 
 /// Waits until the changes of the world are on disk, if ~state_folder is set. @returns whether they are
 using WaitUntilStored = std::function<bool()>;

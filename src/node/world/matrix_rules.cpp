@@ -14,9 +14,9 @@ constexpr const char* kOctomap = "<octomap>";  // MoveIt's name of the octomap o
 constexpr const char* kOctomapBody = "map/planning_scene";
 
 /// Returns the name of the body; nullopt if several robots have a link of this name.
-std::optional<std::string> bodyOf(const std::string& name, const RobotModels& robots) {
-  if (robots.findLink(name) != nullptr) return name;
-  std::vector<std::string> links = robots.linksNamed(name);
+std::optional<std::string> bodyOf(const std::string& name, const RobotEntries& robots) {
+  if (findLink(robots, name) != nullptr) return name;
+  std::vector<std::string> links = linksNamed(robots, name);
   if (links.size() > 1) return std::nullopt;
   if (links.size() == 1) return std::move(links.front());
   return name == kOctomap ? kOctomapBody : joined("obstacle", name);
@@ -33,8 +33,8 @@ const DerivedRules& MatrixRules::rules(const RobotModels& robots) {
   if (!is_new_ && (matrix_.empty() || robots_revision_ == robots.revision())) return rules_;
   std::vector<PairRule> rules;
   for (const MatrixRule& one : matrix_) {
-    const std::optional<std::string> first = bodyOf(one.first, robots);
-    const std::optional<std::string> second = one.second.empty() ? "*" : bodyOf(one.second, robots);
+    const std::optional<std::string> first = bodyOf(one.first, robots.all());
+    const std::optional<std::string> second = one.second.empty() ? "*" : bodyOf(one.second, robots.all());
     if (!first || !second) continue;
     PairRule rule{*first, *second, "MoveIt's allowed collision matrix", one.allowed};
     rule.origin = Origin::moveit;

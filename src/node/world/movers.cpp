@@ -22,23 +22,28 @@ void makeRoom(std::vector<T>& elements, std::size_t more) {
 
 }  // namespace
 
-void Movers::Change::add(const std::string& frame, const SourceId& source, Body body, const Pose& frame_from_body) {
+void NewMovers::add(const std::string& frame, const SourceId& source, Body body, const Pose& frame_from_body) {
   Mover mover{frame, source};
   mover.first = mover.last = members_.size();
   movers_.push_back(std::move(mover));
   join(std::move(body), frame_from_body);
 }
 
-void Movers::Change::reserve(std::size_t bodies) {
+void NewMovers::reserve(std::size_t bodies) {
   in_.reserve(in_.size() + bodies);
   movers_.reserve(movers_.size() + bodies);
   members_.reserve(members_.size() + bodies);
 }
 
-void Movers::Change::join(Body body, const Pose& frame_from_body) {
+void NewMovers::join(Body body, const Pose& frame_from_body) {
   in_.push_back(std::move(body));
   members_.push_back(memberAt(frame_from_body));
   movers_.back().last = members_.size();
+}
+
+void NewMovers::prepare(const Scene& scene, const Snapshot& newest, const std::vector<std::string>& out,
+                        const std::optional<std::vector<PairRule>>& rules) {
+  prepared_ = scene.prepare(newest, out, std::move(in_), rules);
 }
 
 void Movers::add(const SourceId& source, Body body) {
@@ -56,6 +61,7 @@ void Movers::add(const SourceId& source, Body body) {
 }
 
 void Movers::giveUp(const std::set<std::string>& names) noexcept {
+  if (names.empty()) return;
   for (Mover& mover : movers_) {
     if (mover.source.kind == SourceKind::obstacle && names.count(mover.source.name) != 0) mover.given_up = true;
   }
@@ -68,32 +74,28 @@ void Movers::beginLost(const std::set<std::string>& names) noexcept {
   }
 }
 
-Movers::Change Movers::changeWithout(const std::function<bool(const SourceId&)>& chosen) const {
-  Change change;
-  for (std::size_t i = 0; i < movers_.size(); ++i) {
+void Movers::exchange(const std::function<bool(const SourceId&)>& leaves, NewMovers coming) {
+  std::vector<std::size_t> leaving;
+  std::vector<BodyId> out;
+  for (std::size_t i = 0; leaves && i < movers_.size(); ++i) {
     const Mover& mover = movers_[i];
-    if (!chosen(mover.source)) continue;
-    change.leaving_.push_back(i);
-    for (std::size_t member = mover.first; member < mover.last; ++member) {
-      change.out_.push_back(members_[member].body);
-    }
+    if (!leaves(mover.source)) continue;
+    leaving.push_back(i);
+    for (std::size_t member = mover.first; member < mover.last; ++member) out.push_back(members_[member].body);
   }
-  return change;
-}
-
-void Movers::exchange(Change change) {
-  makeRoom(movers_, change.movers_.size());
-  makeRoom(members_, change.members_.size());
-  const std::vector<BodyId> ids = scene_.exchange(change.out_, std::move(change.in_));
+  makeRoom(movers_, coming.movers_.size());
+  makeRoom(members_, coming.members_.size());
+  const std::vector<BodyId> ids = coming.prepared_ ? scene_.exchangePrepared(out, std::move(*coming.prepared_))
+                                                   : scene_.exchange(out, std::move(coming.in_));
   // The code below does not allocate, so it cannot fail.
-  if (!change.leaving_.empty()) remove(change.leaving_);
-  for (Mover& mover : change.movers_) {
+  if (!leaving.empty()) remove(leaving);
+  for (Mover& mover : coming.movers_) {
     mover.first += members_.size();
     mover.last += members_.size();
   }
-  for (std::size_t i = 0; i < ids.size(); ++i) change.members_[i].body = ids[i];
-  std::move(change.movers_.begin(), change.movers_.end(), std::back_inserter(movers_));
-  std::move(change.members_.begin(), change.members_.end(), std::back_inserter(members_));
+  for (std::size_t i = 0; i < ids.size(); ++i) coming.members_[i].body = ids[i];
+  std::move(coming.movers_.begin(), coming.movers_.end(), std::back_inserter(movers_));
+  std::move(coming.members_.begin(), coming.members_.end(), std::back_inserter(members_));
   ++revision_;
 }
 

@@ -36,25 +36,43 @@ struct Mover {
   std::optional<Refusal> trouble{};  ///< what is wrong with its frame
 };
 
+/// Movers and their bodies, which Movers::exchange() adds. Any thread may make them.
+class NewMovers {
+ public:
+  /// Makes room for further movers with one body each.
+  void reserve(std::size_t bodies);
+  /// Adds a mover with one body.
+  void add(const std::string& frame, const SourceId& source, Body body, const Pose& frame_from_body);
+  /// Adds a body to the mover that was added last.
+  void join(Body body, const Pose& frame_from_body);
+  /// Prepares the scene for these bodies, so that Movers::exchange() takes less time. Call this last, and only once.
+  /// @param newest, out, rules, @throws  see Scene::prepare(). If this throws, only the destructor may be called
+  void prepare(const Scene& scene, const Snapshot& newest, const std::vector<std::string>& out,
+               const std::optional<std::vector<PairRule>>& rules);
+
+ private:
+  friend class Movers;
+  std::vector<Mover> movers_;               // `first` and `last` are indices into members_
+  std::vector<Member> members_;             // their `body` is not set yet
+  std::vector<Body> in_;                    // the bodies, in the order of members_; empty after prepare()
+  std::optional<PreparedBodies> prepared_;  // the bodies after prepare()
+};
+
 /// Stores which bodies follow which tf frame.
 ///
 /// A call that throws, even because memory ran out, changes neither this object nor the scene.
 class Movers {
  public:
-  class Change;
-
   /// @param scene  bodies are added to it and removed from it; it must outlive this object
   explicit Movers(Scene& scene) : scene_(scene) {}
 
   /// Adds one body that follows its `frame`.
   /// @throws Refusal as Scene::add()
   void add(const SourceId& source, Body body);
-  /// Returns a change that removes all movers of the sources for which `chosen` returns true. The change is valid until
-  /// the next add() or exchange().
-  Change changeWithout(const std::function<bool(const SourceId&)>& chosen) const;
-  /// Applies a change to this object and to the scene. changeWithout() of this object must have returned it.
+  /// Removes all movers of the sources for which `leaves` returns true, and adds others, here and in the scene.
+  /// @param leaves  null: no mover is removed
   /// @throws Refusal as Scene::exchange()
-  void exchange(Change change);
+  void exchange(const std::function<bool(const SourceId&)>& leaves, NewMovers coming);
 
   /// Lets obstacles keep their poses and be LOST from the next tick on. @param names  full names
   void giveUp(const std::set<std::string>& names) noexcept;
@@ -76,26 +94,6 @@ class Movers {
   std::vector<Mover> movers_;
   std::vector<Member> members_;
   std::uint64_t revision_ = 0;
-};
-
-/// Movers that leave a Movers object, and new movers with their bodies. They are collected separately, so that
-/// exchange() can apply all of them at once.
-class Movers::Change {
- public:
-  /// Makes room for further movers with one body each.
-  void reserve(std::size_t bodies);
-  /// Adds a mover with one body.
-  void add(const std::string& frame, const SourceId& source, Body body, const Pose& frame_from_body);
-  /// Adds a body to the mover that was added last.
-  void join(Body body, const Pose& frame_from_body);
-
- private:
-  friend class Movers;
-  std::vector<std::size_t> leaving_;  // indices of the movers that leave, ascending
-  std::vector<BodyId> out_;           // bodies of the movers in leaving_; they leave the scene
-  std::vector<Mover> movers_;         // new movers; `first` and `last` are indices into members_
-  std::vector<Member> members_;       // their `body` is not set yet
-  std::vector<Body> in_;              // bodies that enter the scene, in the order of members_
 };
 
 }  // namespace hgrid

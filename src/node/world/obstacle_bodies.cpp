@@ -3,6 +3,7 @@
 #include "node/world/obstacle_bodies.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <set>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "hgrid_proximity/bodies/name.h"
 #include "node/sources/body_params.h"
 #include "node/sources/configured_obstacle.h"
+#include "node/world/rules_in_force.h"
 
 namespace hgrid {
 namespace {
@@ -38,9 +40,9 @@ ObstacleBodies::ObstacleBodies(const Params& params, std::shared_ptr<NarrowPhase
   }
 }
 
-void ObstacleBodies::startAgain() noexcept {
+void ObstacleBodies::startAgain(std::shared_ptr<PlacedObstacles> none) noexcept {
   done_ = 0;
-  present_.clear();
+  present_.swap(none);
   stored_.clear();
   removed_.clear();
   unsaved_.all_removed = true;
@@ -79,7 +81,7 @@ void ObstacleBodies::addConfigured(const ObstacleParams& configured, const std::
   obstacle.frame_from_body = obstacle.asked.frame_from_body;
   obstacle.ends = endOf(*obstacle.what, now);
   obstacle.attachment = attachmentOf(configured);
-  for (const auto& [name, other] : present_) {
+  for (const auto& [name, other] : present_.all()) {
     if (configured.body.group.empty() || other.what->body.group != configured.body.group) continue;
     checkMoveTogether(obstacle, other);  // the others of the group move together with this one
     break;
@@ -94,9 +96,10 @@ void ObstacleBodies::addConfigured(const ObstacleParams& configured, const std::
     robots_revision_ = kNoRevision;
     return;
   }
+  const SharedObstacles::Access access(present_);
   const Time first_end = std::min(first_end_, obstacle.ends);
   movers.add(SourceId::ofObstacle(configured.body.name), bodyOf(obstacle, world_frame));
-  present_.merge(added);  // does not throw
+  access.all().merge(added);  // does not throw
   first_end_ = first_end;
 }
 
@@ -137,54 +140,49 @@ void ObstacleBodies::forgetUnsaved() noexcept {
   unsaved_.names.clear();
 }
 
-/// Returns the rules for what may touch the attached obstacles after the edits. @throws Refusal limit
-std::vector<PairRule> ObstacleBodies::touchRulesAfter(const ObstacleEdits& edits) const {
-  const auto visit = [&](const auto& act) {
-    for (const auto& [name, obstacle] : present_) {
-      if (edits.removed.count(name) == 0 && edits.set.count(name) == 0) act(name, obstacle);
-    }
-    for (const auto& [name, obstacle] : edits.set) act(name, obstacle);
-  };
-  // Without attachments, before and after the edits, there are no rules, and the loops below are not needed.
-  const bool attaches = std::any_of(edits.set.begin(), edits.set.end(),
-                                    [](const auto& edit) { return edit.second.attachment != nullptr; });
-  if (!attaches && touch_.rules.empty()) return {};
-  // Links that never move relative to an obstacle do not count, so a new model of a robot cannot exceed the limit.
-  std::size_t count = 0;
-  visit([&](const std::string&, const PlacedObstacle& obstacle) {
-    if (!obstacle.attachment) return;
-    count += obstacle.attachment->touch.size() + obstacle.attachment->touch_links.size() + 1;
-  });
-  const auto most = static_cast<std::size_t>(params_.max_rules);
-  if (count > most) {
-    throw Refusal(Code::limit, "the attached obstacles would need " + std::to_string(count) +
-                                   " rules for their links and the globs in touch; at most " + std::to_string(most) +
-                                   " are allowed (~max_rules)");
-  }
-  std::vector<PairRule> rules;
-  visit([&](const std::string& name, const PlacedObstacle& obstacle) {
-    for (const std::string& other : obstacle.touch) {
-      PairRule rule{name, other, name + " is attached to " + obstacle.attachment->link};
-      rule.origin = Origin::attached;
-      rules.push_back(std::move(rule));
-    }
-  });
-  return rules;
+void ObstacleBodies::apply(const ObstacleChanges& changes, const Surroundings& around, Movers& movers,
+                           PreparedObstacles* prepared) {
+  const bool is_up_to_date = prepared != nullptr && prepared->revision == present_.revision() &&
+                             prepared->robots.get() == &around.robots && prepared->world_frame == around.world_frame;
+  ObstacleDraft draft =
+      is_up_to_date ? std::move(prepared->draft)
+                    : draftOf(editsOf(changes, present_.all(), around), present_.all(), params_, around.world_frame);
+  std::set<std::string> unsaved = unsavedAfter(draft.edits);
+  carryOut(std::move(draft), movers);
+  unsaved_.names.merge(unsaved);  // does not throw
 }
 
-void ObstacleBodies::apply(const ObstacleChanges& changes, const Surroundings& around, Movers& movers) {
-  ObstacleEdits edits = editsOf(changes, present_, around);
-  std::set<std::string> unsaved = unsavedAfter(edits);
-  carryOut(std::move(edits), around.world_frame, movers);
-  unsaved_.names.merge(unsaved);  // does not throw
+std::shared_ptr<PreparedObstacles> ObstacleBodies::prepare(const ObstacleChanges& changes, const Tick& newest, Time now,
+                                                           const TransformLookup& lookup, const Scene& scene,
+                                                           const std::vector<PairRule>* rules) const {
+  if (!newest.snapshot) return nullptr;
+  auto prepared = std::make_shared<PreparedObstacles>();
+  prepared->robots = newest.robots;
+  prepared->world_frame = newest.world_frame;
+  const SharedObstacles::View view = present_.view();
+  prepared->revision = view.revision;
+  const Surroundings around{params_, newest.world_frame, lookup, *newest.robots, now};
+  try {
+    ObstacleDraft& draft = prepared->draft;
+    draft = draftOf(editsOf(changes, *view.obstacles, around), *view.obstacles, params_, newest.world_frame);
+    const std::vector<PairRule>& present = newest.snapshot->structure().filter.rules();
+    std::optional<std::vector<PairRule>> next;
+    if (rules != nullptr || !hasDerived(present, Origin::attached, draft.touch)) {
+      next = withTouchRules(rules == nullptr ? present : *rules, draft.touch);
+    }
+    draft.coming.prepare(scene, *newest.snapshot, {draft.leaving.begin(), draft.leaving.end()}, next);
+  } catch (const Refusal&) {
+    return nullptr;  // apply() finds out whether the changes must be refused
+  }
+  return prepared;
 }
 
 void ObstacleBodies::followRobots(const RobotModels& robots, const std::string& world_frame, Movers& movers) {
   if (robots_revision_ == robots.revision()) return;
   ObstacleEdits edits;
-  for (const auto& [name, obstacle] : present_) {
+  for (const auto& [name, obstacle] : present_.all()) {
     if (!obstacle.attachment || obstacle.lost) continue;
-    follow(edits.set.emplace(name, obstacle).first->second, robots, params_);
+    follow(edits.set.emplace(name, obstacle).first->second, robots.all(), params_);
   }
   carryOut(std::move(edits), world_frame, movers);
   robots_revision_ = robots.revision();
@@ -195,7 +193,7 @@ void ObstacleBodies::expire(Time now, Movers& movers) {
   ObstacleEdits edits;
   std::set<std::string> lost;
   Time first_end = Time::max();
-  for (const auto& [name, obstacle] : present_) {
+  for (const auto& [name, obstacle] : present_.all()) {
     if (obstacle.lost) continue;
     if (obstacle.ends > now) {
       first_end = std::min(first_end, obstacle.ends);
@@ -205,69 +203,46 @@ void ObstacleBodies::expire(Time now, Movers& movers) {
   }
   std::set<std::string> unsaved = unsavedAfter(edits);
   if (!params_.state_folder.empty()) unsaved.insert(lost.begin(), lost.end());
-  carryOut(std::move(edits), "", movers);
+  carryOut(draftOf(std::move(edits), present_.all(), params_, ""), movers, lost);
   // The code below does not throw.
   unsaved_.names.merge(unsaved);
-  movers.giveUp(lost);
-  for (const std::string& name : lost) present_.find(name)->second.lost = true;
   first_end_ = first_end;
 }
 
-void ObstacleBodies::restamp(Time now) noexcept {
-  for (auto& [name, obstacle] : present_) {
+void ObstacleBodies::restamp(Time now) {
+  const SharedObstacles::Access access(present_);
+  for (auto& [name, obstacle] : access.all()) {
     if (!obstacle.lost) obstacle.ends = endOf(*obstacle.what, now);
   }
   first_end_ = now;  // the next expire() finds the right time
 }
 
-/// Changes obstacles in this object and in the movers. If only the pose of a fixed obstacle changes, the scene keeps
-/// the body and its pairs.
 void ObstacleBodies::carryOut(ObstacleEdits edits, const std::string& world_frame, Movers& movers) {
-  std::set<std::string> leaving;
-  std::vector<const PlacedObstacle*> entering;
-  entering.reserve(edits.set.size());
-  std::vector<PlacedObstacles::iterator> outdated;  // those that are removed from present_, or replaced
-  Time first_end = first_end_;
-  for (const std::string& name : edits.removed) {
-    const auto old = present_.find(name);
-    if (old == present_.end()) continue;
-    leaving.insert(name);
-    outdated.push_back(old);
-  }
-  for (const auto& [name, next] : edits.set) {
-    first_end = std::min(first_end, next.ends);
-    const auto old = present_.find(name);
-    if (old != present_.end()) {
-      outdated.push_back(old);
-      const bool renewed = !old->second.lost && old->second.restored == next.restored &&
-                           old->second.carrier_speed == next.carrier_speed &&
-                           !old->second.attachment == !next.attachment && isAtSamePlace(old->second, next) &&
-                           (old->second.what == next.what || isSame(*old->second.what, *next.what));
-      if (renewed) continue;
-      leaving.insert(name);
+  carryOut(draftOf(std::move(edits), present_.all(), params_, world_frame), movers);
+}
+
+/// Changes obstacles in this object and in the movers. @param lost  full names of obstacles that become LOST
+void ObstacleBodies::carryOut(ObstacleDraft draft, Movers& movers, const std::set<std::string>& lost) {
+  const SharedObstacles::Access access(present_);
+  if (!draft.leaving.empty() || draft.coming_count != 0) {
+    std::function<bool(const SourceId&)> leaves;
+    if (!draft.leaving.empty()) {
+      leaves = [&](const SourceId& source) {
+        return source.kind == SourceKind::obstacle && draft.leaving.count(source.name) != 0;
+      };
     }
-    entering.push_back(&next);
-  }
-  std::vector<PairRule> touch = touchRulesAfter(edits);
-  if (!leaving.empty() || !entering.empty()) {
-    Movers::Change change = movers.changeWithout(
-        [&](const SourceId& source) { return source.kind == SourceKind::obstacle && leaving.count(source.name) != 0; });
-    change.reserve(entering.size());
-    for (const PlacedObstacle* obstacle : entering) {
-      Body body = bodyOf(*obstacle, world_frame);
-      const std::string frame = body.frame;
-      const SourceId source = SourceId::ofObstacle(body.name);
-      const Pose frame_from_body = body.frame_from_body;
-      change.add(frame, source, std::move(body), frame_from_body);
-    }
-    movers.exchange(std::move(change));
+    movers.exchange(leaves, std::move(draft.coming));
   }
   // The code below does not allocate, so it cannot fail.
-  for (const auto& old : outdated) present_.erase(old);
-  present_.merge(edits.set);
-  if (!touch.empty() || !touch_.rules.empty()) ++touch_.revision;
-  touch_.rules.swap(touch);
-  first_end_ = first_end;
+  PlacedObstacles& all = access.all();
+  for (const std::string& name : draft.edits.removed) all.erase(name);
+  for (const auto& edit : draft.edits.set) all.erase(edit.first);
+  all.merge(draft.edits.set);
+  movers.giveUp(lost);
+  for (const std::string& name : lost) all.find(name)->second.lost = true;
+  if (!draft.touch.empty() || !touch_.rules.empty()) ++touch_.revision;
+  touch_.rules.swap(draft.touch);
+  first_end_ = std::min(first_end_, draft.first_end);
 }
 
 /// Returns the names of the obstacles that the edits change, if changes are stored.

@@ -14,11 +14,15 @@
 #include "node/diagnostics/ledger.h"
 #include "node/params/params.h"
 #include "node/sources/obstacle_change.h"
+#include "node/tf/transform_lookup.h"
+#include "node/tick/tick.h"
 #include "node/world/missing_sources.h"
 #include "node/world/movers.h"
+#include "node/world/obstacle_draft.h"
 #include "node/world/obstacle_edits.h"
 #include "node/world/robot_models.h"
 #include "node/world/rules_in_force.h"
+#include "node/world/shared_obstacles.h"
 #include "node/world/stored_world.h"
 
 namespace hgrid {
@@ -35,22 +39,34 @@ class ObstacleBodies {
   /// If this throws, the next call continues with the obstacle that failed. Lifetimes begin at `now`.
   void addAll(const std::string& world_frame, Time now, Movers& movers, MissingSources& missing);
   /// Forgets all obstacles, also the stored ones, and makes the next addAll() begin with the first configured one. The
-  /// bodies must have been removed from the movers.
-  void startAgain() noexcept;
+  /// bodies must have been removed from the movers. @param none  an empty list, not null
+  void startAgain(std::shared_ptr<PlacedObstacles> none) noexcept;
 
+  /// Prepares apply(), so that it takes less time. Any thread except the tick thread may call this.
+  /// @param now    current ROS time
+  /// @param scene  that of the movers
+  /// @param rules  see PrepareObstacles
+  /// @returns null if there is no world yet, or if the changes would be refused now
+  std::shared_ptr<PreparedObstacles> prepare(const ObstacleChanges& changes, const Tick& newest, Time now,
+                                             const TransformLookup& lookup, const Scene& scene,
+                                             const std::vector<PairRule>* rules) const;
   /// Applies changes, all of them or none.
+  /// @param prepared  result of prepare() for the same changes, which may be out of date; it is used up; null: none
   /// @throws ChangeRefusal or Refusal as editsOf(); Refusal limit (~max_rules), or as Scene::exchange()
-  void apply(const ObstacleChanges& changes, const Surroundings& around, Movers& movers);
+  void apply(const ObstacleChanges& changes, const Surroundings& around, Movers& movers,
+             PreparedObstacles* prepared = nullptr);
   /// Finds the places of attached obstacles again if the model of a robot was replaced since the last call.
   void followRobots(const RobotModels& robots, const std::string& world_frame, Movers& movers);
   /// Removes the obstacles whose lifetime has ended.
   void expire(Time now, Movers& movers);
   /// Lets all lifetimes begin again, after ROS time jumped.
-  void restamp(Time now) noexcept;
+  void restamp(Time now);
   /// Returns the rules for what may touch the attached obstacles.
   const DerivedRules& touchRules() const { return touch_; }
   /// Returns the obstacles, by full name.
-  const PlacedObstacles& all() const { return present_; }
+  const PlacedObstacles& all() const { return present_.all(); }
+  /// Returns the obstacles, by full name, for any thread.
+  std::shared_ptr<const PlacedObstacles> share() const { return present_.view().obstacles; }
 
   /// What changed since the last forgetUnsaved(), if ~state_folder is set.
   struct Unsaved {
@@ -61,16 +77,16 @@ class ObstacleBodies {
   void forgetUnsaved() noexcept;
 
  private:
-  std::vector<PairRule> touchRulesAfter(const ObstacleEdits& edits) const;
   void addConfigured(const ObstacleParams& configured, const std::string& world_frame, Time now, Movers& movers);
   void addStored(const std::string& world_frame, Time now, Movers& movers, MissingSources& missing);
   std::set<std::string> unsavedAfter(const ObstacleEdits& edits) const;
   void carryOut(ObstacleEdits edits, const std::string& world_frame, Movers& movers);
+  void carryOut(ObstacleDraft draft, Movers& movers, const std::set<std::string>& lost = {});
 
   const Params& params_;
   std::shared_ptr<NarrowPhase> narrow_phase_;
   Ledger& ledger_;
-  PlacedObstacles present_;
+  SharedObstacles present_;
   DerivedRules touch_;
   std::size_t done_ = 0;           // number of configured obstacles that were added or refused
   PlacedObstacles stored_;         // by an earlier run, and not added yet

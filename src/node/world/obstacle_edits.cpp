@@ -34,8 +34,9 @@ class ObstacleEditor {
       : present_(present), around_(around), without_groups_(without_groups) {}
 
   void edit(const ObstacleChange& change);
-  /// Removes the obstacles that a complete set lacks. @param complete_set  names of its obstacles
-  void removeOthers(const std::string& owner, const std::set<std::string>& complete_set, bool spare_attached);
+  /// Removes the obstacles that a complete set lacks. @param owner  null: all. @param complete_set  names of its
+  /// obstacles
+  void removeOthers(const std::string* owner, const std::set<std::string>& complete_set, bool spare_attached);
   /// Checks that the obstacles of each group that changes move together.
   void checkGroups();
   ObstacleEdits result() && { return std::move(edits_); }
@@ -241,10 +242,10 @@ std::vector<std::string> ObstacleEditor::chosen(const std::function<bool(const P
   return names;
 }
 
-void ObstacleEditor::removeOthers(const std::string& owner, const std::set<std::string>& complete_set,
+void ObstacleEditor::removeOthers(const std::string* owner, const std::set<std::string>& complete_set,
                                   bool spare_attached) {
   for (const auto& [name, obstacle] : present_) {
-    if (obstacle.owner != owner || complete_set.count(name) != 0) continue;
+    if ((owner != nullptr && obstacle.owner != *owner) || complete_set.count(name) != 0) continue;
     const PlacedObstacle* next = find(name);
     if (spare_attached && next != nullptr && next->attachment) continue;
     remove(name);
@@ -271,7 +272,8 @@ ObstacleEdits editsOf(const ObstacleChanges& changes, const PlacedObstacles& pre
       throw ChangeRefusal(i, refusal);
     }
   }
-  if (changes.complete_set_of) editor.removeOthers(*changes.complete_set_of, complete_set, changes.spare_attached);
+  if (changes.complete_set_of) editor.removeOthers(&*changes.complete_set_of, complete_set, changes.spare_attached);
+  if (changes.complete) editor.removeOthers(nullptr, complete_set, false);
   if (changes.without_groups) editor.checkGroups();
   return std::move(editor).result();
 }

@@ -54,10 +54,10 @@ void checkPlace(const PlacedObstacle& obstacle, const Surroundings& around) {
 }
 
 /// Returns the full name of the link that an obstacle is attached to. @throws Refusal unknown_id, conflict
-std::string linkOf(const Attachment& attachment, const std::string& what, const RobotModels& robots) {
-  if (robots.findLink(attachment.link) != nullptr) return attachment.link;
+std::string linkOf(const Attachment& attachment, const std::string& what, const RobotEntries& robots) {
+  if (findLink(robots, attachment.link) != nullptr) return attachment.link;
   std::vector<std::string> links;
-  if (attachment.without_robot) links = robots.linksNamed(attachment.link);
+  if (attachment.without_robot) links = linksNamed(robots, attachment.link);
   if (links.size() == 1) return links.front();
   if (links.empty()) {
     throw Refusal(Code::unknown_id, what +
@@ -151,7 +151,7 @@ void attach(PlacedObstacle& obstacle, const Attachment& attachment, const Surrou
       "'" + printable(obstacle.what->body.name) + "' cannot be attached to '" + printable(attachment.link) + "'";
   auto resolved = std::make_shared<Attachment>(attachment);
   resolved->link = linkOf(attachment, what, around.robots);
-  const LoadedRobot* robot = around.robots.findLink(resolved->link);
+  const LoadedRobot* robot = findLink(around.robots, resolved->link);
   if (!resolved->link_from_body) {
     const LoadedRobot::Seat& seat = robot->links.at(resolved->link);
     const std::string& frame = robot->groups[seat.group].frame;
@@ -262,9 +262,9 @@ void carry(PlacedObstacle& obstacle, const PlacedObstacle& before, const PlacedO
   checkPlace(obstacle, around);
 }
 
-void follow(PlacedObstacle& obstacle, const RobotModels& robots, const Params& params) {
+void follow(PlacedObstacle& obstacle, const RobotEntries& robots, const Params& params) {
   const Attachment& attachment = *obstacle.attachment;
-  const LoadedRobot* robot = robots.findLink(attachment.link);
+  const LoadedRobot* robot = findLink(robots, attachment.link);
   if (robot == nullptr) return;
   const LoadedRobot::Seat& seat = robot->links.at(attachment.link);
   const LoadedRobot::Group& group = robot->groups[seat.group];

@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "node/params/params.h"
 #include "node/sources/obstacle_change.h"
 #include "node/tf/transform_lookup.h"
-#include "node/world/robot_models.h"
+#include "node/world/robot_entry.h"
 
 namespace hgrid {
 
@@ -17,7 +18,7 @@ struct Surroundings {
   const Params& params;
   const std::string& world_frame;
   const TransformLookup& lookup;
-  const RobotModels& robots;
+  const RobotEntries& robots;
   Time now;  ///< ROS time
 };
 
@@ -85,6 +86,6 @@ void placeShapes(PlacedObstacle& obstacle, const std::vector<Pose>& poses);
 
 /// Computes the place and the touch list of an attached obstacle again, after the model of its robot was replaced. If
 /// the link does not exist any more, the obstacle stays as it is.
-void follow(PlacedObstacle& obstacle, const RobotModels& robots, const Params& params);
+void follow(PlacedObstacle& obstacle, const RobotEntries& robots, const Params& params);
 
 }  // namespace hgrid

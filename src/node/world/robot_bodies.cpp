@@ -61,15 +61,15 @@ void updateMissing(const RobotEntries& present, const RobotEntries& next, Missin
 }
 
 /// Adds a mover for each group of links that move together.
-void addMovers(const LoadedRobot& robot, const LinkPaddings& paddings, Movers::Change& change) {
+void addMovers(const LoadedRobot& robot, const LinkPaddings& paddings, NewMovers& coming) {
   const SourceId source = SourceId::ofRobot(robot.name);
   for (const LoadedRobot::Group& group : robot.groups) {
     bool first = true;
     for (const auto& [body, frame_from_body] : group.members) {
       if (std::exchange(first, false)) {
-        change.add(group.frame, source, padded(robot.bodies[body], paddings), frame_from_body);
+        coming.add(group.frame, source, padded(robot.bodies[body], paddings), frame_from_body);
       } else {
-        change.join(padded(robot.bodies[body], paddings), frame_from_body);
+        coming.join(padded(robot.bodies[body], paddings), frame_from_body);
       }
     }
   }
@@ -166,9 +166,9 @@ void RobotBodies::exchange(RobotEntries next, const std::function<bool(const Sou
 
 /// Replaces the movers of some sources by those of `coming`. If this throws, nothing changes.
 void RobotBodies::replace(const std::function<bool(const SourceId&)>& leaves, const Robots& coming) {
-  Movers::Change change = movers_.changeWithout(leaves);
-  for (const auto& robot : coming) addMovers(*robot, paddings_, change);
-  movers_.exchange(std::move(change));
+  NewMovers movers;
+  for (const auto& robot : coming) addMovers(*robot, paddings_, movers);
+  movers_.exchange(leaves, std::move(movers));
 }
 
 void RobotBodies::setPaddings(LinkPaddings paddings) noexcept {

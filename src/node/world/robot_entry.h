@@ -24,6 +24,11 @@ struct RobotEntry {
 
 using RobotEntries = std::map<std::string, RobotEntry>;
 
+/// Returns the model of the robot that has a link of this name, "robot/link"; null if no robot in the world has it.
+const LoadedRobot* findLink(const RobotEntries& robots, const std::string& link);
+/// Returns the full names, "robot/link", of the links of all robots in the world that have this name without the robot.
+std::vector<std::string> linksNamed(const RobotEntries& robots, const std::string& name);
+
 /// A robot that an earlier run of the node added or declared absent.
 struct StoredRobot {
   RobotSpec spec;

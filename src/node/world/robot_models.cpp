@@ -57,20 +57,6 @@ const LoadedRobot* RobotModels::find(const std::string& name) const {
   return robot != nullptr && robot->inWorld() ? robot->model.get() : nullptr;
 }
 
-const LoadedRobot* RobotModels::findLink(const std::string& link) const {
-  const LoadedRobot* robot = find(link.substr(0, link.find('/')));
-  return robot != nullptr && robot->links.count(link) != 0 ? robot : nullptr;
-}
-
-std::vector<std::string> RobotModels::linksNamed(const std::string& name) const {
-  std::vector<std::string> links;
-  for (const auto& robot : all()) {
-    if (!robot.second.inWorld()) continue;
-    if (robot.second.model->links.count(robot.first + "/" + name) != 0) links.push_back(robot.first + "/" + name);
-  }
-  return links;
-}
-
 std::string RobotModels::firstRoot() const {
   if (params_->robots.empty()) return {};
   const RobotEntry* first = entry(params_->robots.front().name);

@@ -42,11 +42,6 @@ class RobotModels {
   bool expects(const std::string& name) const;
   /// Returns the model of a robot, or null if the robot is not in the world.
   const LoadedRobot* find(const std::string& name) const;
-  /// Returns the model of the robot that has a link of this name, "robot/link"; null if no robot in the world has it.
-  const LoadedRobot* findLink(const std::string& link) const;
-  /// Returns the full names, "robot/link", of the links of all robots in the world that have this name without the
-  /// robot.
-  std::vector<std::string> linksNamed(const std::string& name) const;
   /// Returns the root frame of the first robot of ~robots; empty: it is not loaded.
   std::string firstRoot() const;
   /// Returns the report on what is missing in the models.

@@ -113,9 +113,9 @@ void World::setMap(const LoadedMap& map) {
   MapBodies maps = maps_;
   maps.set(source, body, map);
   if (!same) {  // otherwise only the cells of the map change, and the structure of the scene stays the same
-    Movers::Change change = movers_.changeWithout([&](const SourceId& other) { return other == source; });
-    change.add(body.frame, source, body, body.frame_from_body);
-    movers_.exchange(std::move(change));
+    NewMovers coming;
+    coming.add(body.frame, source, body, body.frame_from_body);
+    movers_.exchange([&](const SourceId& other) { return other == source; }, std::move(coming));
   }
   // The code below does not throw, because the body is a map without shapes, and the cells exist.
   BodyId id;
@@ -133,7 +133,7 @@ void World::clearMap(const std::string& name) {
   const auto chosen = [&](const SourceId& source) {
     return source.kind == SourceKind::map && (name.empty() || source == named);
   };
-  movers_.exchange(movers_.changeWithout(chosen));
+  movers_.exchange(chosen, {});
   // The code below does not throw.
   maps_.eraseIf(chosen);
   missing_.eraseIf(chosen);  // the world no longer waits for these maps
@@ -176,7 +176,13 @@ void World::setMissing(const SourceId& source, const std::string& sentence) {
   missing_.set(source, sentence);
 }
 
-void World::applyObstacles(const ObstacleChanges& changes, Time now) {
+std::shared_ptr<PreparedObstacles> World::prepareObstacles(const ObstacleChanges& changes,
+                                                           const std::shared_ptr<const Tick>& newest, Time now,
+                                                           const std::vector<PairRule>* rules) const {
+  return newest ? obstacles_.prepare(changes, *newest, now, transforms_.lookup(), scene_, rules) : nullptr;
+}
+
+void World::applyObstacles(const ObstacleChanges& changes, Time now, PreparedObstacles* prepared) {
   if (!findWorldFrame() || !clock_.running()) {
     throw Refusal(Code::not_ready,
                   "obstacles cannot be placed yet: " +
@@ -187,7 +193,8 @@ void World::applyObstacles(const ObstacleChanges& changes, Time now) {
   std::set<SourceId> named;
   for (const ObstacleChange& change : changes.changes) named.insert(SourceId::ofObstacle(change.name));
   obstacles_.addAll(world_frame_, now, movers_, missing_);  // so that a change can be about a configured obstacle
-  obstacles_.apply(changes, {params_, world_frame_, transforms_.lookup(), robots_.models(), now}, movers_);
+  obstacles_.apply(changes, {params_, world_frame_, transforms_.lookup(), robots_.models().all(), now}, movers_,
+                   prepared);
   // The code below does not throw. A configured obstacle that was refused is no longer missing if it was changed.
   missing_.eraseIf([&](const SourceId& source) { return named.count(source) != 0; });
 }
@@ -202,9 +209,10 @@ void World::setSettings(std::shared_ptr<const Settings> settings) {
 
 void World::reset() {
   const auto is_obstacle = [](const SourceId& source) { return source.kind == SourceKind::obstacle; };
+  auto none = std::make_shared<PlacedObstacles>();
   robots_.reset(is_obstacle);
   // The code below does not throw.
-  obstacles_.startAgain();
+  obstacles_.startAgain(std::move(none));
   robots_.setPaddings({});
   setMatrix({});
   missing_.eraseIf(is_obstacle);

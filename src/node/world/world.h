@@ -38,7 +38,7 @@ namespace hgrid {
 /// Makes the ticks: each tick updates the Scene with the transforms and the sources, then takes a snapshot.
 ///
 /// The members of this class do the work. The class itself only decides in which order a change or a tick uses them.
-/// Only the tick thread may call its functions, but any thread may read a Tick.
+/// Only the tick thread may call its functions, except prepareObstacles(). Any thread may read a Tick.
 ///
 /// A call that throws, even because memory ran out, changes nothing. Only tick() may leave its work half done if memory
 /// runs out; the next tick completes it.
@@ -92,8 +92,14 @@ class World {
   void setSettings(std::shared_ptr<const Settings> settings);
   /// Applies changes of obstacles, all of them or none.
   /// @param now  current ROS time
+  /// @param prepared  result of prepareObstacles() for these changes; it is used up; null: none
   /// @throws Refusal not_ready (no world frame or no time yet), or as ObstacleBodies::apply()
-  void applyObstacles(const ObstacleChanges& changes, Time now);
+  void applyObstacles(const ObstacleChanges& changes, Time now, PreparedObstacles* prepared = nullptr);
+  /// Prepares applyObstacles(), so that the tick with the changes takes less time. Any thread except the tick thread
+  /// may call this. See PrepareObstacles. @param newest  null: there is no tick yet
+  std::shared_ptr<PreparedObstacles> prepareObstacles(const ObstacleChanges& changes,
+                                                      const std::shared_ptr<const Tick>& newest, Time now,
+                                                      const std::vector<PairRule>* rules = nullptr) const;
   /// Replaces the paddings of links that were set at run time, from the next tick on. They hold for robots that are
   /// loaded later, too. The larger one of this padding and that of ~padding counts.
   void setLinkPaddings(LinkPaddings paddings) noexcept { robots_.setPaddings(std::move(paddings)); }

@@ -311,7 +311,7 @@ TEST_F(Maps, OneThousandReplacementsLeaveNothingBehind) {
   folder_.write("field.bt", "# Octomap OcTree binary file\nid OcTree\nsize " + std::to_string(read.nodes) +
                                 "\nres 0.1\ndata\n" + nodes);
   // One connection for all requests: among thousands of calls with a connection each, roscpp sometimes loses one.
-  ros::ServiceClient loader = ros_.serviceClient<msg::LoadOctomap>(node_->named("load_octomap"), true);
+  ros::ServiceClient loader = ros::NodeHandle().serviceClient<msg::LoadOctomap>(node_->named("load_octomap"), true);
   msg::LoadOctomap call;
   call.request.map = "room";
   std::size_t after_100 = 0;

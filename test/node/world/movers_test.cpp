@@ -27,16 +27,16 @@ class MoversTest : public ::testing::Test {
     Body post = bodyOf("obstacle/post");
     post.frame = "world";
     movers_.add(SourceId::ofObstacle("obstacle/post"), post);
-    Movers::Change change = movers_.changeWithout([](const SourceId&) { return false; });
-    addArm(change);
-    change.add("cart_base", SourceId::ofRobot("cart"), bodyOf("cart/base"), Pose::Identity());
-    movers_.exchange(std::move(change));
+    NewMovers coming;
+    addArm(coming);
+    coming.add("cart_base", SourceId::ofRobot("cart"), bodyOf("cart/base"), Pose::Identity());
+    movers_.exchange(nullptr, std::move(coming));
   }
 
-  static void addArm(Movers::Change& change) {
-    change.add("shoulder", SourceId::ofRobot("arm"), bodyOf("arm/shoulder"), Pose::Identity());
-    change.join(bodyOf("arm/upper"), shifted(0.5));
-    change.add("wrist", SourceId::ofRobot("arm"), bodyOf("arm/wrist"), Pose::Identity());
+  static void addArm(NewMovers& coming) {
+    coming.add("shoulder", SourceId::ofRobot("arm"), bodyOf("arm/shoulder"), Pose::Identity());
+    coming.join(bodyOf("arm/upper"), shifted(0.5));
+    coming.add("wrist", SourceId::ofRobot("arm"), bodyOf("arm/wrist"), Pose::Identity());
   }
 
   /// Returns one line for each mover, in the form "frame: body body".
@@ -75,9 +75,9 @@ TEST_F(MoversTest, ReplaceTheBodiesOfOneSourceAndKeepThePosesOfTheOthers) {
   movers_.all().back().pose.renew(Time(7), Time(3));
   const std::uint64_t before = movers_.revision();
   const SourceId arm = SourceId::ofRobot("arm");
-  Movers::Change change = movers_.changeWithout([&](const SourceId& source) { return source == arm; });
-  change.add("shoulder", arm, bodyOf("arm/shoulder"), shifted(1.0));  // the scene already has a body of this name
-  movers_.exchange(std::move(change));
+  NewMovers coming;
+  coming.add("shoulder", arm, bodyOf("arm/shoulder"), shifted(1.0));  // the scene already has a body of this name
+  movers_.exchange([&](const SourceId& source) { return source == arm; }, std::move(coming));
   EXPECT_EQ(listed(), (Lines{"world: obstacle/post", "cart_base: cart/base", "shoulder: arm/shoulder"}));
   EXPECT_EQ(scene_.size(), 3u);
   EXPECT_EQ(movers_[1].pose.stamp(), Time(7));
@@ -87,10 +87,10 @@ TEST_F(MoversTest, ReplaceTheBodiesOfOneSourceAndKeepThePosesOfTheOthers) {
 
 TEST_F(MoversTest, KeepTheMembersOfOtherMoversWhenOneIsRemoved) {
   const SourceId post = SourceId::ofObstacle("obstacle/post");
-  Movers::Change change = movers_.changeWithout([&](const SourceId& source) { return source == post; });
+  NewMovers coming;
   const SourceId box = SourceId::ofObstacle("obstacle/box");
-  change.add("world", box, bodyOf("obstacle/box"), shifted(2.0));
-  movers_.exchange(std::move(change));
+  coming.add("world", box, bodyOf("obstacle/box"), shifted(2.0));
+  movers_.exchange([&](const SourceId& source) { return source == post; }, std::move(coming));
   EXPECT_EQ(listed(), (Lines{"shoulder: arm/shoulder arm/upper", "wrist: arm/wrist", "cart_base: cart/base",
                              "world: obstacle/box"}));
   EXPECT_EQ(movers_.members().size(), 5u);
@@ -99,7 +99,7 @@ TEST_F(MoversTest, KeepTheMembersOfOtherMoversWhenOneIsRemoved) {
 }
 
 TEST_F(MoversTest, RemoveAllSourcesOfAKind) {
-  movers_.exchange(movers_.changeWithout([](const SourceId& source) { return source.kind == SourceKind::robot; }));
+  movers_.exchange([](const SourceId& source) { return source.kind == SourceKind::robot; }, {});
   EXPECT_EQ(listed(), (Lines{"world: obstacle/post"}));
   EXPECT_EQ(scene_.size(), 1u);
 }
@@ -107,9 +107,9 @@ TEST_F(MoversTest, RemoveAllSourcesOfAKind) {
 TEST_F(MoversTest, StayAsTheyWereIfTheSceneRefusesAChange) {
   const Lines before = listed();
   const std::uint64_t revision = movers_.revision();
-  Movers::Change change = movers_.changeWithout([](const SourceId&) { return false; });
-  change.add("other", SourceId::ofRobot("other"), bodyOf("arm/wrist"), Pose::Identity());
-  EXPECT_NE(refusalOf([&] { movers_.exchange(change); }), Code::ok);
+  NewMovers coming;
+  coming.add("other", SourceId::ofRobot("other"), bodyOf("arm/wrist"), Pose::Identity());
+  EXPECT_NE(refusalOf([&] { movers_.exchange(nullptr, std::move(coming)); }), Code::ok);
   EXPECT_NE(refusalOf([&] { movers_.add(SourceId::ofObstacle("obstacle/post"), bodyOf("obstacle/post")); }), Code::ok);
   EXPECT_EQ(listed(), before);
   EXPECT_EQ(scene_.size(), 5u);

@@ -106,8 +106,8 @@ class Model {
 TEST_F(Obstacles, AreWhatASimpleModelSays) {
   Random random(1);
   Model model;
-  int applied = 0, refusals = 0;
-  for (int round = 0; round < 10000; ++round) {
+  int applied = 0, refusals = 0, outdated = 0;
+  const auto randomChanges = [&] {
     std::vector<msg::Obstacle> changes;
     for (std::uint32_t count = random.below(4); count > 0; --count) {
       const std::string name = random.below(10) == 0 ? "post" : std::string(1, char('a' + random.below(6)));
@@ -134,9 +134,24 @@ TEST_F(Obstacles, AreWhatASimpleModelSays) {
           if (random.below(3) == 0) changes.back().lifetime = ros::Duration(Model::kLife);
       }
     }
+    return changes;
+  };
+  for (int round = 0; round < 10000; ++round) {
+    const std::vector<msg::Obstacle> changes = randomChanges();
     const std::string complete = random.below(6) == 0 ? "one" : "";
-    const auto expected = model.apply(changes, complete, time_, cart(time_));
-    ASSERT_EQ(refused(changes, complete), expected) << "round " << round;
+    std::optional<std::pair<Code, std::size_t>> expected;
+    between_ = [&] {  // sometimes another request comes between, so that what was prepared is out of date
+      if (random.below(4) == 0) {
+        const std::vector<msg::Obstacle> others = randomChanges();
+        if (!model.apply(others, "", time_, cart(time_))) {
+          world_.applyObstacles(changesOf(others, ""), momentAt(time_).ros);
+          ++outdated;
+        }
+      }
+      expected = model.apply(changes, complete, time_, cart(time_));
+    };
+    const auto found = refused(changes, complete);
+    ASSERT_EQ(found, expected) << "round " << round;
     ++(expected ? refusals : applied);
     const Snapshot& snapshot = tick();
     ASSERT_EQ(placesIn(snapshot), model.places(time_, cart(time_))) << "round " << round;
@@ -150,6 +165,7 @@ TEST_F(Obstacles, AreWhatASimpleModelSays) {
   }
   EXPECT_GT(applied, 500);
   EXPECT_GT(refusals, 500);
+  EXPECT_GT(outdated, 500);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -155,12 +156,21 @@ class Obstacles : public ::testing::Test {
   }
   static double cart(double time) { return 10.0 + time; }
 
-  void apply(const std::vector<msg::Obstacle>& changes, const std::string& complete_set_of = "") {
+  ObstacleChanges changesOf(const std::vector<msg::Obstacle>& changes, const std::string& complete_set_of) const {
     msg::ApplyObstacles::Request request;
     request.changes = changes;
     request.owner = complete_set_of;
     request.complete_set = !complete_set_of.empty();
-    world_.applyObstacles(obstacleChangesOf(request, "/caller", params(), *phase_, &readFile), momentAt(time_).ros);
+    return obstacleChangesOf(request, "/caller", params(), *phase_, &readFile);
+  }
+  /// Applies the changes. Prepares them if the changes before were not prepared.
+  void apply(const std::vector<msg::Obstacle>& changes, const std::string& complete_set_of = "") {
+    const ObstacleChanges all = changesOf(changes, complete_set_of);
+    std::shared_ptr<PreparedObstacles> prepared;
+    prepares_ = !prepares_;
+    if (prepares_) prepared = world_.prepareObstacles(all, tick_, momentAt(time_).ros);
+    if (between_) std::exchange(between_, nullptr)();
+    world_.applyObstacles(all, momentAt(time_).ros, prepared.get());
   }
   /// Stands for reading mesh files: knows one file, a tetrahedron.
   static std::shared_ptr<const TriangleMesh> readFile(const std::string& uri, const Eigen::Vector3d& scale) {
@@ -210,6 +220,8 @@ class Obstacles : public ::testing::Test {
   World world_;
   double time_ = 0.0;
   std::shared_ptr<const Tick> tick_;
+  bool prepares_ = false;          ///< whether the last apply() prepared its changes
+  std::function<void()> between_;  ///< called once, after the next apply() has prepared its changes
 };
 
 }  // namespace test

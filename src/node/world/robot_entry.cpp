@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "node/world/robot_entry.h"
+
+namespace hgrid {
+
+const LoadedRobot* findLink(const RobotEntries& robots, const std::string& link) {
+  const auto robot = robots.find(link.substr(0, link.find('/')));
+  if (robot == robots.end() || !robot->second.inWorld()) return nullptr;
+  const LoadedRobot& model = *robot->second.model;
+  return model.links.count(link) != 0 ? &model : nullptr;
+}
+
+std::vector<std::string> linksNamed(const RobotEntries& robots, const std::string& name) {
+  std::vector<std::string> links;
+  for (const auto& [robot, entry] : robots) {
+    const std::string link = robot + "/" + name;
+    if (entry.inWorld() && entry.model->links.count(link) != 0) links.push_back(link);
+  }
+  return links;
+}
+
+}  // namespace hgrid
