@@ -3,10 +3,10 @@
 #include "node/tf/frame_poses.h"
 
 namespace hgrid {
-void FramePoses::plan(const std::string& world_frame, const std::vector<std::string>& frames) {
+void FramePoses::plan(const std::string& world_frame, std::vector<std::string> frames) {
   world_frame_ = world_frame;
-  frames_ = frames;
-  tree_.plan(world_frame, frames);
+  frames_ = std::move(frames);
+  tree_.plan(world_frame, frames_);
   others_.clear();
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     if (!isWorld(i)) others_.push_back(i);

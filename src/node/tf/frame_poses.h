@@ -32,7 +32,7 @@ class FramePoses {
   /// Whether a new frame or a new parent has appeared in tf since the last plan().
   bool stale() const { return tree_.stale(); }
   /// Finds the chains of transforms to `frames`. All other functions refer to a frame by its index in `frames`.
-  void plan(const std::string& world_frame, const std::vector<std::string>& frames);
+  void plan(const std::string& world_frame, std::vector<std::string> frames);
   /// Reads the stored transforms, chooses the time of the tick and computes all poses at that time.
   void look(const Moment& now);
   void beginEpoch() { time_.beginEpoch(); }

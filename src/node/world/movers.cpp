@@ -65,7 +65,7 @@ void Movers::giveUp(const std::set<std::string>& names) noexcept {
   for (Mover& mover : movers_) {
     if (mover.source.kind == SourceKind::obstacle && names.count(mover.source.name) != 0) mover.given_up = true;
   }
-  ++revision_;
+  reordered_ = ++revision_;
 }
 
 void Movers::beginLost(const std::set<std::string>& names) noexcept {
@@ -97,6 +97,7 @@ void Movers::exchange(const std::function<bool(const SourceId&)>& leaves, NewMov
   std::move(coming.movers_.begin(), coming.movers_.end(), std::back_inserter(movers_));
   std::move(coming.members_.begin(), coming.members_.end(), std::back_inserter(members_));
   ++revision_;
+  if (!leaving.empty()) reordered_ = revision_;
 }
 
 /// Removes movers and their members. The others keep their order. @param leaving  indices of movers, ascending

@@ -86,6 +86,8 @@ class Movers {
   const std::vector<Member>& members() const { return members_; }
   /// Returns a number that increases with each change.
   std::uint64_t revision() const { return revision_; }
+  /// Returns whether all changes after this revision only added movers behind the others.
+  bool onlyAddedSince(std::uint64_t revision) const { return revision >= reordered_; }
 
  private:
   void remove(const std::vector<std::size_t>& leaving) noexcept;
@@ -94,6 +96,7 @@ class Movers {
   std::vector<Mover> movers_;
   std::vector<Member> members_;
   std::uint64_t revision_ = 0;
+  std::uint64_t reordered_ = 0;  // revision of the newest change that was more than an addition
 };
 
 }  // namespace hgrid

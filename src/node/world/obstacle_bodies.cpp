@@ -144,11 +144,13 @@ void ObstacleBodies::apply(const ObstacleChanges& changes, const Surroundings& a
                            PreparedObstacles* prepared) {
   const bool is_up_to_date = prepared != nullptr && prepared->revision == present_.revision() &&
                              prepared->robots.get() == &around.robots && prepared->world_frame == around.world_frame;
-  ObstacleDraft draft =
-      is_up_to_date ? std::move(prepared->draft)
-                    : draftOf(editsOf(changes, present_.all(), around), present_.all(), params_, around.world_frame);
+  ObstacleDraft made_now;
+  if (!is_up_to_date) {
+    made_now = draftOf(editsOf(changes, present_.all(), around), present_.all(), params_, around.world_frame);
+  }
+  ObstacleDraft& draft = is_up_to_date ? prepared->draft : made_now;
   std::set<std::string> unsaved = unsavedAfter(draft.edits);
-  carryOut(std::move(draft), movers);
+  carryOut(draft, movers);
   unsaved_.names.merge(unsaved);  // does not throw
 }
 
@@ -203,7 +205,8 @@ void ObstacleBodies::expire(Time now, Movers& movers) {
   }
   std::set<std::string> unsaved = unsavedAfter(edits);
   if (!params_.state_folder.empty()) unsaved.insert(lost.begin(), lost.end());
-  carryOut(draftOf(std::move(edits), present_.all(), params_, ""), movers, lost);
+  ObstacleDraft draft = draftOf(std::move(edits), present_.all(), params_, "");
+  carryOut(draft, movers, lost);
   // The code below does not throw.
   unsaved_.names.merge(unsaved);
   first_end_ = first_end;
@@ -218,11 +221,12 @@ void ObstacleBodies::restamp(Time now) {
 }
 
 void ObstacleBodies::carryOut(ObstacleEdits edits, const std::string& world_frame, Movers& movers) {
-  carryOut(draftOf(std::move(edits), present_.all(), params_, world_frame), movers);
+  ObstacleDraft draft = draftOf(std::move(edits), present_.all(), params_, world_frame);
+  carryOut(draft, movers);
 }
 
 /// Changes obstacles in this object and in the movers. @param lost  full names of obstacles that become LOST
-void ObstacleBodies::carryOut(ObstacleDraft draft, Movers& movers, const std::set<std::string>& lost) {
+void ObstacleBodies::carryOut(ObstacleDraft& draft, Movers& movers, const std::set<std::string>& lost) {
   const SharedObstacles::Access access(present_);
   if (!draft.leaving.empty() || draft.coming_count != 0) {
     std::function<bool(const SourceId&)> leaves;
@@ -235,8 +239,7 @@ void ObstacleBodies::carryOut(ObstacleDraft draft, Movers& movers, const std::se
   }
   // The code below does not allocate, so it cannot fail.
   PlacedObstacles& all = access.all();
-  for (const std::string& name : draft.edits.removed) all.erase(name);
-  for (const auto& edit : draft.edits.set) all.erase(edit.first);
+  for (const std::string& name : draft.outdated) draft.retired.insert(all.extract(name));
   all.merge(draft.edits.set);
   movers.giveUp(lost);
   for (const std::string& name : lost) all.find(name)->second.lost = true;

@@ -51,7 +51,8 @@ class ObstacleBodies {
                                              const TransformLookup& lookup, const Scene& scene,
                                              const std::vector<PairRule>* rules) const;
   /// Applies changes, all of them or none.
-  /// @param prepared  result of prepare() for the same changes, which may be out of date; it is used up; null: none
+  /// @param prepared  result of prepare() for the same changes, which may be out of date; null: none. It is used up.
+  ///                  Then it holds the obstacles that left or changed, so the tick thread should not destroy it.
   /// @throws ChangeRefusal or Refusal as editsOf(); Refusal limit (~max_rules), or as Scene::exchange()
   void apply(const ObstacleChanges& changes, const Surroundings& around, Movers& movers,
              PreparedObstacles* prepared = nullptr);
@@ -81,7 +82,7 @@ class ObstacleBodies {
   void addStored(const std::string& world_frame, Time now, Movers& movers, MissingSources& missing);
   std::set<std::string> unsavedAfter(const ObstacleEdits& edits) const;
   void carryOut(ObstacleEdits edits, const std::string& world_frame, Movers& movers);
-  void carryOut(ObstacleDraft draft, Movers& movers, const std::set<std::string>& lost = {});
+  void carryOut(ObstacleDraft& draft, Movers& movers, const std::set<std::string>& lost = {});
 
   const Params& params_;
   std::shared_ptr<NarrowPhase> narrow_phase_;

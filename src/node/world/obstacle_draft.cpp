@@ -57,12 +57,15 @@ ObstacleDraft draftOf(ObstacleEdits edits, const PlacedObstacles& present, const
                       const std::string& world_frame) {
   ObstacleDraft draft;
   for (const std::string& name : edits.removed) {
-    if (present.count(name) != 0) draft.leaving.insert(name);
+    if (present.count(name) == 0) continue;
+    draft.leaving.insert(name);
+    draft.outdated.push_back(name);
   }
   draft.coming.reserve(edits.set.size());
   for (const auto& [name, next] : edits.set) {
     draft.first_end = std::min(draft.first_end, next.ends);
     const auto old = present.find(name);
+    if (old != present.end()) draft.outdated.push_back(name);
     if (old != present.end() && isOnlyRenewed(old->second, next)) continue;
     if (old != present.end()) draft.leaving.insert(name);
     Body body = bodyOf(next, world_frame);

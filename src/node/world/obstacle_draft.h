@@ -23,6 +23,9 @@ struct ObstacleDraft {
   std::size_t coming_count = 0;             ///< number of these obstacles
   std::vector<PairRule> touch;              ///< the rules for what may touch attached obstacles, after the edits
   Time first_end = Time::max();             ///< the earliest end of a lifetime among the edited obstacles
+  std::vector<std::string> outdated;        ///< full names of the present obstacles that leave or change
+  /// After the draft was carried out: these obstacles as they were. It takes long to destroy many of them.
+  PlacedObstacles retired = {};
 };
 
 /// If only the pose of a fixed obstacle changes, the scene keeps the body and its pairs.

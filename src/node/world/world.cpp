@@ -164,7 +164,9 @@ void World::setDataFrames(const SourceId& source, const std::vector<std::string>
 void World::needFrames(const Moment& now) {
   if (needed_revision_ == movers_.revision()) return;
   std::vector<std::string> frames{world_frame_};
-  for (const Mover& mover : movers_.all()) frames.push_back(mover.frame);
+  for (const Mover& mover : movers_.all()) {
+    if (mover.frame != frames.back()) frames.push_back(mover.frame);  // most obstacles have the same frame
+  }
   for (const auto& data : data_frames_) frames.insert(frames.end(), data.second.begin(), data.second.end());
   transforms_.need(frames, now);
   needed_revision_ = movers_.revision();
@@ -190,13 +192,15 @@ void World::applyObstacles(const ObstacleChanges& changes, Time now, PreparedObs
                                                      "~world_frame"
                                                    : "there is no time yet, because nothing is published on /clock"));
   }
-  std::set<SourceId> named;
-  for (const ObstacleChange& change : changes.changes) named.insert(SourceId::ofObstacle(change.name));
   obstacles_.addAll(world_frame_, now, movers_, missing_);  // so that a change can be about a configured obstacle
   obstacles_.apply(changes, {params_, world_frame_, transforms_.lookup(), robots_.models().all(), now}, movers_,
                    prepared);
   // The code below does not throw. A configured obstacle that was refused is no longer missing if it was changed.
-  missing_.eraseIf([&](const SourceId& source) { return named.count(source) != 0; });
+  missing_.eraseIf([&](const SourceId& source) {
+    return source.kind == SourceKind::obstacle && source.group.empty() &&
+           std::any_of(changes.changes.begin(), changes.changes.end(),
+                       [&](const ObstacleChange& change) { return change.name == source.name; });
+  });
 }
 
 void World::setRules(PreparedRules rules) { rules_.set(std::move(rules)); }
