@@ -46,8 +46,11 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       completeness_log_(std::chrono::steady_clock::now()),
       loading_(
           admin_thread_.node(), private_node, commons_, world_.transforms().lookup(),
-          [this] { return tick_loop_.newest(); }, jobs_, world_.robots(), state_.restored().maps,
-          [this] { return isEnding(); }),
+          [this] { return tick_loop_.newest(); },
+          [this](const std::function<void(RobotEntries&)>& edit) {
+            return world_.prepareRobots(edit, tick_loop_.newest());
+          },
+          jobs_, world_.robots(), state_.restored().maps, [this] { return isEnding(); }),
       guard_(batch_threads_.privateNode(), commons_, world_.transforms().lookup()),
       path_topics_(node, commons_, guard_, [this] { return tick_loop_.newest(); }),
       services_(

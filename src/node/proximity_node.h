@@ -63,7 +63,7 @@ class ProximityNode {
   Commons commons_;
   QuerySketch sketch_;
   StateKeeper state_;
-  World world_;  // only the tick thread uses it; all threads may use its transforms and prepareObstacles()
+  World world_;  // only the tick thread uses it; all threads may use its transforms, and its functions to prepare
   TickJobs jobs_;
   Stopwatch stopwatch_;  // only the tick thread uses it
   Auditor auditor_;

@@ -20,6 +20,7 @@ HGRID = "broadphase/hgrid/hgrid.cpp"
 QUERIES = "broadphase/hgrid/queries.cpp"
 SCENE = "world/scene.cpp"
 COMMIT = "world/commit.cpp"
+PREPARED = "world/prepared_bodies.cpp"
 GROWN = "world/grown_boxes.cpp"
 ROOMS = "world/find_rooms.cpp"
 EVENTS = "world/pair_events.cpp"
@@ -62,6 +63,7 @@ YAML_VALUE = "node/params/yaml_value.cpp"
 STORED_ITEMS = "node/state/stored_items.cpp"
 MOVERS = "node/world/mover_poses.cpp"
 OBSTACLES = "node/world/obstacle_bodies.cpp"
+OBSTACLE_DRAFT = "node/world/obstacle_draft.cpp"
 OBSTACLE_EDITS = "node/world/obstacle_edits.cpp"
 POSES_MESSAGE = "node/wire/poses_message.cpp"
 SCENE_CHANGES = "node/moveit/scene_changes.cpp"
@@ -76,7 +78,12 @@ PLACED = "node/world/placed_obstacle.cpp"
 CORE = [
     ("a margin that changes at run time is not used", SCENE, "  s.options.margin = tuning.margin;\n", ""),
     ("a change at run time uses what the last commit computed", SCENE,
-     "  s.structure_changed = true;\n  s.sizes_changed =", "  s.sizes_changed ="),
+     "  s.options_changed = true;\n", ""),
+    ("prepared lists replace bodies that came meanwhile", PREPARED, "isOutdated() || structure != prepared.before ||",
+     ""),
+    ("a prepared obstacle that moves gets a new slot", PREPARED, "if (!stays[body]) leaving", "leaving"),
+    ("a snapshot keeps rules that were expected and never set", "world/new_structure.cpp",
+     "rules_changed = options.allowed_pairs != structure->filter.rules();", "rules_changed = false;"),
     ("the pair search ignores the reach of the level", PAIRS_BODY,
      "cellsOf(l, first, 0, l.reach[x], grid, x, x_low);", "cellsOf(l, first, 0, 0.0f, grid, x, x_low);"),
     ("the pair search of a box covers only the cell of its minimum corner", PAIRS_BODY,
@@ -425,7 +432,7 @@ NODE = [
     ("a change does not confirm a restored obstacle", OBSTACLE_EDITS, "  obstacle.restored = false;", ""),
     ("changes of obstacles are not stored", OBSTACLES, "  unsaved_.names.merge(unsaved);  // does not throw", ""),
     ("an obstacle that ended is there again after a restart", OBSTACLES,
-     "  unsaved_.names.merge(unsaved);\n  movers.giveUp(lost);", "  movers.giveUp(lost);"),
+     "  unsaved_.names.merge(unsaved);\n  first_end_ = first_end;", "  first_end_ = first_end;"),
     ("a scene has no padding", SCENE_FILE, 'if (shape.padding != usual_padding) entry("padding", shape.padding);', ""),
     ("an obstacle of a scene follows the frame at which it was placed", SCENE_FILE,
      'obstacle.asked.at ? "" : obstacle.asked.frame', "obstacle.asked.frame"),
@@ -487,8 +494,10 @@ NODE = [
      "if (change.free_only && old != nullptr && old->attachment) {", "if (false) {"),
     ("a complete scene drops what a robot carries", OBSTACLE_EDITS,
      "if (spare_attached && next != nullptr && next->attachment) continue;", ""),
-    ("an attached object that is sent again ends its pairs", OBSTACLES,
-     "(old->second.what == next.what || isSame(*old->second.what, *next.what))", "old->second.what == next.what"),
+    ("an attached object that is sent again ends its pairs", OBSTACLE_DRAFT,
+     "(before.what == after.what || isSame(*before.what, *after.what))", "before.what == after.what"),
+    ("obstacles are set as prepared, although others came meanwhile", OBSTACLES,
+     "prepared != nullptr && prepared->revision == present_.revision() &&", "prepared != nullptr &&"),
     ("a complete scene appends to shapes of an older scene", SCENE_CHANGES,
      "if (!scene.is_diff && begins &&", "if (false && begins &&"),
     ("the pose of the only shape is not that of the object", SCENE_CHANGES,

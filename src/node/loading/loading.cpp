@@ -9,8 +9,8 @@
 namespace hgrid {
 
 Loading::Loading(ros::NodeHandle node, const ros::NodeHandle& private_node, Commons& commons,
-                 const TransformLookup& transforms, NewestTick newest, TickJobs& jobs, const RobotModels& robots,
-                 const StoredMaps& stored_maps, std::function<bool()> is_ending)
+                 const TransformLookup& transforms, NewestTick newest, PrepareRobots prepare_robots, TickJobs& jobs,
+                 const RobotModels& robots, const StoredMaps& stored_maps, std::function<bool()> is_ending)
     : node_(std::move(node)),
       commons_(commons),
       transforms_(transforms),
@@ -20,7 +20,7 @@ Loading::Loading(ros::NodeHandle node, const ros::NodeHandle& private_node, Comm
       self_shapes_(commons.settings.params, transforms, newest_),
       robot_source_(private_node, commons.settings.params, commons.narrow_phase, is_ending_),
       map_source_(commons.settings.params, self_shapes_, commons.narrow_phase, commons.ledger),
-      robots_(robot_source_, commons.settings.params, robots, newest_, jobs, commons.health),
+      robots_(robot_source_, commons.settings.params, robots, std::move(prepare_robots), jobs, commons.health),
       maps_(node_, commons.settings.params, map_source_, stored_maps, jobs, commons.ledger) {}
 
 void Loading::startClouds() {

@@ -29,8 +29,8 @@ class Loading {
   /// @param stored_maps   maps that services loaded or removed in an earlier run of the node
   /// @param is_ending     returns whether the node is shutting down; loads are then canceled. Any thread may call it.
   Loading(ros::NodeHandle node, const ros::NodeHandle& private_node, Commons& commons,
-          const TransformLookup& transforms, NewestTick newest, TickJobs& jobs, const RobotModels& robots,
-          const StoredMaps& stored_maps, std::function<bool()> is_ending);
+          const TransformLookup& transforms, NewestTick newest, PrepareRobots prepare_robots, TickJobs& jobs,
+          const RobotModels& robots, const StoredMaps& stored_maps, std::function<bool()> is_ending);
 
   void startClouds();
   void stopClouds() { clouds_.clear(); }

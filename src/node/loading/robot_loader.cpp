@@ -11,6 +11,7 @@
 
 #include "node/diagnostics/ledger.h"
 #include "node/loading/missing_note.h"
+#include "node/world/robot_edits.h"
 #include "node/world/world.h"
 
 namespace hgrid {
@@ -25,22 +26,13 @@ void logLoaded(const std::string& robot, const SelfPairs& self_pairs) {
   }
 }
 
-/// Returns the names of the bodies of robots.
-std::vector<std::string> namesOfBodies(const std::vector<std::shared_ptr<const LoadedRobot>>& robots) {
-  std::vector<std::string> names;
-  for (const auto& robot : robots) {
-    for (const Body& body : robot->bodies) names.push_back(body.name);
-  }
-  return names;
-}
-
 }  // namespace
 
-RobotLoader::RobotLoader(const RobotSource& source, const Params& params, const RobotModels& robots, NewestTick newest,
-                         TickJobs& jobs, NodeHealth& health)
+RobotLoader::RobotLoader(const RobotSource& source, const Params& params, const RobotModels& robots,
+                         PrepareRobots prepare_bodies, TickJobs& jobs, NodeHealth& health)
     : source_(source),
       params_(params),
-      newest_(std::move(newest)),
+      prepare_bodies_(std::move(prepare_bodies)),
       jobs_(jobs),
       health_(health),
       robots_(robots),
@@ -99,13 +91,12 @@ Refusal RobotLoader::load(const Robot& robot, SharedReader& reader) {
   try {
     const RobotDescription description = source_.describe(*robot);
     watch_.noteRead(name, description.hash());
-    const auto loaded = std::make_shared<LoadedRobot>(reader.load(*robot, description));
+    const auto loaded = std::make_shared<const LoadedRobot>(reader.load(*robot, description));
     const SelfPairs self_pairs = loaded->self_pairs;
     const auto after = std::make_shared<std::optional<RobotModels>>();
-    const auto matches = matchNames(namesOfBodies({loaded}), newest_());
-    jobs_.run([loaded, matches, after](World& world) {
-      world.prepareNames(matches);
-      world.setRobot(std::move(*loaded));
+    const auto prepared = prepare_bodies_([&](RobotEntries& robots) { robots[loaded->name].model = loaded; });
+    jobs_.run([loaded, prepared, after](World& world) {
+      world.setRobot(loaded, prepared.get());
       after->emplace(world.robots());
     });
     robots_.swap(**after);
@@ -131,16 +122,10 @@ PreparedRobots RobotLoader::prepare(const std::vector<RobotRequest>& requests) c
   return hgrid::prepare(requests, robots_.all(), source_, params_);
 }
 
-/// Returns the result of matchNames() for the bodies of all robots that a request adds.
-std::shared_ptr<NameMatches> RobotLoader::matchesOf(const PreparedRobots& prepared) const {
-  std::vector<std::shared_ptr<const LoadedRobot>> coming;
-  for (const RobotChange& change : prepared.changes) {
-    const bool is_known = change.operation == RobotOperation::declare_present && !change.model;
-    const RobotEntry* known = is_known ? robots_.entry(change.name) : nullptr;
-    if (change.model) coming.push_back(change.model);
-    if (known != nullptr && known->model) coming.push_back(known->model);
-  }
-  return matchNames(namesOfBodies(coming), newest_());
+std::shared_ptr<PreparedRobotBodies> RobotLoader::prepareBodies(const RobotChanges& changes) const {
+  return prepare_bodies_([&](RobotEntries& robots) {
+    for (const RobotChange& change : changes) edit(change, params_, robots);
+  });
 }
 
 std::shared_ptr<const Tick> RobotLoader::change(const ChangeWorld& change_world, const std::function<void(World&)>& act,
@@ -155,9 +140,7 @@ std::shared_ptr<const Tick> RobotLoader::change(const ChangeWorld& change_world,
   };
   std::shared_ptr<const Tick> tick;
   try {
-    const auto matches = prepared == nullptr ? nullptr : matchesOf(*prepared);
-    tick = change_world([act, matches, after](World& world) {
-      world.prepareNames(matches);
+    tick = change_world([act, after](World& world) {
       act(world);
       after->emplace(world.robots());
     });

@@ -27,7 +27,7 @@ namespace hgrid {
 class RobotLoader {
  public:
   /// `source`, `params`, `jobs` and `health` must outlive this object. @param robots  the robots of the world
-  RobotLoader(const RobotSource& source, const Params& params, const RobotModels& robots, NewestTick newest,
+  RobotLoader(const RobotSource& source, const Params& params, const RobotModels& robots, PrepareRobots prepare_bodies,
               TickJobs& jobs, NodeHealth& health);
 
   /// Returns the robots of the world after the last change that this object made.
@@ -54,19 +54,20 @@ class RobotLoader {
   /// @throws whatever `change_world` throws
   std::shared_ptr<const Tick> change(const ChangeWorld& change_world, const std::function<void(World&)>& act,
                                      const PreparedRobots* prepared);
+  /// Prepares the bodies of robots for World::applyRobots(). @returns null if nothing can be prepared
+  std::shared_ptr<PreparedRobotBodies> prepareBodies(const RobotChanges& changes) const;
 
  private:
   using Robot = std::shared_ptr<const RobotSpec>;
 
   Refusal loadAgain(const Robot& robot, SharedReader& reader);
   Refusal load(const Robot& robot, SharedReader& reader);
-  std::shared_ptr<NameMatches> matchesOf(const PreparedRobots& prepared) const;
   void noteFailed(const RobotSpec& robot, const Refusal& why);
   void adopt(const RobotModels& robots);
 
   const RobotSource& source_;
   const Params& params_;
-  const NewestTick newest_;
+  const PrepareRobots prepare_bodies_;
   TickJobs& jobs_;
   NodeHealth& health_;
   RobotModels robots_;  // as after the last change that this object made

@@ -67,12 +67,13 @@ void RobotService::apply(ServiceCall<msg::ApplyRobots>& call) const {
   try {
     const auto prepared =
         std::make_shared<const PreparedRobots>(loader_.prepare(robotRequestsOf(call.request, params_)));
+    const std::shared_ptr<PreparedRobotBodies> bodies = loader_.prepareBodies(prepared->changes);
     const auto left_behind = std::make_shared<std::vector<std::string>>();
     call.tick = AnswerTick(loader_.change(
         change_world_,
-        [prepared, left_behind](World& world) {
+        [prepared, bodies, left_behind](World& world) {
           *left_behind = leftBehind(prepared->changes, world.obstacles());
-          world.applyRobots(prepared->changes);
+          world.applyRobots(prepared->changes, bodies.get());
         },
         prepared.get()));
     ModelReport report;

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "hgrid_proximity/pairs/pair_rule.h"
@@ -13,6 +15,8 @@ namespace hgrid {
 class World;
 struct ObstacleChanges;
 struct PreparedObstacles;
+struct PreparedRobotBodies;
+struct RobotEntry;
 struct Tick;
 
 /// Changes the world at the beginning of a tick, waits until that tick, ~bodies and ~rules are published, and returns
@@ -25,6 +29,12 @@ using ChangeWorld = std::function<std::shared_ptr<const Tick>(const std::functio
 /// @returns null if nothing can be prepared
 using PrepareObstacles = std::function<std::shared_ptr<PreparedObstacles>(const ObstacleChanges& changes,
                                                                           const std::vector<PairRule>* rules)>;
+
+/// Prepares World::setRobot() or World::applyRobots() beside the ticks.
+/// @param edit  makes the same change to the robots of the newest tick; it may throw Refusal
+/// @returns null if nothing can be prepared
+using PrepareRobots = std::function<std::shared_ptr<PreparedRobotBodies>(
+    const std::function<void(std::map<std::string, RobotEntry>&)>& edit)>;
 
 /// Waits until the changes of the world are on disk, if ~state_folder is set. @returns whether they are
 using WaitUntilStored = std::function<bool()>;

@@ -16,14 +16,21 @@ namespace hgrid {
 namespace {
 
 /// Returns the robots of `next` that must enter the scene, because it does not have them or has another model of them.
-std::vector<std::shared_ptr<const LoadedRobot>> entering(const RobotEntries& present, const RobotEntries& next) {
-  std::vector<std::shared_ptr<const LoadedRobot>> robots;
+RobotList entering(const RobotEntries& present, const RobotEntries& next) {
+  RobotList robots;
   for (const auto& [name, robot] : next) {
     const auto old = present.find(name);
     const bool stays = old != present.end() && old->second.inWorld() && old->second.model == robot.model;
     if (robot.inWorld() && !stays) robots.push_back(robot.model);
   }
   return robots;
+}
+
+/// Returns the names of the robots that must leave the scene.
+std::set<std::string> leaving(const RobotEntries& present, const RobotEntries& next) {
+  std::set<std::string> names;
+  for (const auto& robot : entering(next, present)) names.insert(robot->name);
+  return names;
 }
 
 Refusal tooLarge(const LoadedRobot& robot, const Params& params) {
@@ -83,8 +90,7 @@ RobotBodies::RobotBodies(const Params& params, const StoredRobots& stored, const
   updateMissing({}, models_.all(), missing_);
 }
 
-void RobotBodies::set(LoadedRobot loaded) {
-  const auto robot = std::make_shared<const LoadedRobot>(std::move(loaded));
+void RobotBodies::set(std::shared_ptr<const LoadedRobot> robot, PreparedRobotBodies* prepared) {
   RobotEntries next = models_.all();
   RobotEntry& entry = next[robot->name];
   if (!entry.spec) {
@@ -95,10 +101,10 @@ void RobotBodies::set(LoadedRobot loaded) {
   entry.model = robot;
   entry.refused.clear();
   if (const LoadedRobot* large = findTooLarge(next)) throw tooLarge(*large, params_);
-  exchange(std::move(next));
+  exchange(std::move(next), prepared);
 }
 
-void RobotBodies::apply(const RobotChanges& changes, const std::string& world_frame) {
+void RobotBodies::apply(const RobotChanges& changes, const std::string& world_frame, PreparedRobotBodies* prepared) {
   RobotEntries next = models_.all();
   std::map<std::string, std::size_t> bringing;  // index of the last change that brings a robot into the world, by name
   for (const RobotChange& change : changes) {
@@ -113,7 +119,7 @@ void RobotBodies::apply(const RobotChanges& changes, const std::string& world_fr
   }
   if (const LoadedRobot* robot = findTooLarge(next))
     throw ChangeRefusal(bringing[robot->name], tooLarge(*robot, params_));
-  exchange(std::move(next));
+  exchange(std::move(next), prepared);
 }
 
 void RobotBodies::noteRefused(const std::string& name, const std::string& sentence) {
@@ -123,11 +129,11 @@ void RobotBodies::noteRefused(const std::string& name, const std::string& senten
   if (!known->model || known->refused == sentence) return;
   RobotEntries next = models_.all();
   next.at(name).refused = sentence;
-  exchange(std::move(next));
+  exchange(std::move(next), nullptr);
 }
 
 void RobotBodies::reset(const std::function<bool(const SourceId&)>& leaves_too) {
-  exchange(models_.configured(), leaves_too);
+  exchange(models_.configured(), nullptr, leaves_too);
 }
 
 /// Returns the first robot with which the world would have more than ~max_bodies bodies; null: there is none.
@@ -142,33 +148,50 @@ const LoadedRobot* RobotBodies::findTooLarge(const RobotEntries& next) const {
   return nullptr;
 }
 
-/// Replaces the robots, all of them or none. @param leaves_too  which other sources leave the world; null: none
-void RobotBodies::exchange(RobotEntries next, const std::function<bool(const SourceId&)>& leaves_too) {
+std::shared_ptr<PreparedRobotBodies> RobotBodies::prepare(const RobotEntries& before, const RobotEntries& after,
+                                                          const Snapshot& newest, const Scene& scene) {
+  auto prepared = std::make_shared<PreparedRobotBodies>();
+  prepared->leaving = leaving(before, after);
+  prepared->coming = entering(before, after);
+  for (const auto& robot : prepared->coming) addMovers(*robot, {}, prepared->movers);
+  std::vector<std::string> out;
+  for (const Body& body : newest.structure().bodies) {
+    if (body.kind == BodyKind::link && prepared->leaving.count(body.robot) != 0) out.push_back(body.name);
+  }
+  prepared->movers.prepare(scene, newest, out, std::nullopt);
+  return prepared;
+}
+
+/// Replaces the robots, all of them or none.
+/// @param prepared    used if it was made for this change; null: none
+/// @param leaves_too  which other sources leave the world; null: none
+void RobotBodies::exchange(RobotEntries next, PreparedRobotBodies* prepared,
+                           const std::function<bool(const SourceId&)>& leaves_too) {
   const RobotEntries& present = models_.all();
-  std::set<std::string> leaving;
-  for (const auto& robot : entering(next, present)) leaving.insert(robot->name);
-  const Robots coming = entering(present, next);
+  const std::set<std::string> out = leaving(present, next);
+  const RobotList coming = entering(present, next);
   MissingSources missing = missing_;
   updateMissing(present, next, missing);
   RobotModels models = models_;
   models.set(std::move(next));
-  if (leaves_too || !leaving.empty() || !coming.empty()) {
+  if (leaves_too || !out.empty() || !coming.empty()) {
     const auto leaves = [&](const SourceId& source) {
-      return (source.kind == SourceKind::robot && leaving.count(source.name) != 0) ||
-             (leaves_too && leaves_too(source));
+      return (source.kind == SourceKind::robot && out.count(source.name) != 0) || (leaves_too && leaves_too(source));
     };
-    replace(leaves, coming);
+    const bool is_prepared = prepared != nullptr && paddings_.empty() && !leaves_too && prepared->leaving == out &&
+                             prepared->coming == coming;
+    movers_.exchange(leaves, is_prepared ? std::move(prepared->movers) : moversOf(coming));
   }
   // The code below does not throw.
   models_.swap(models);
   missing_.swap(missing);
 }
 
-/// Replaces the movers of some sources by those of `coming`. If this throws, nothing changes.
-void RobotBodies::replace(const std::function<bool(const SourceId&)>& leaves, const Robots& coming) {
+/// Returns the movers of robots, with the paddings of their links.
+NewMovers RobotBodies::moversOf(const RobotList& coming) const {
   NewMovers movers;
   for (const auto& robot : coming) addMovers(*robot, paddings_, movers);
-  movers_.exchange(leaves, std::move(movers));
+  return movers;
 }
 
 void RobotBodies::setPaddings(LinkPaddings paddings) noexcept {
@@ -179,14 +202,16 @@ void RobotBodies::setPaddings(LinkPaddings paddings) noexcept {
 void RobotBodies::padLinks() {
   if (!paddings_changed_) return;
   const auto differs = [this](const Body& link) { return hasOtherPadding(link); };
-  Robots robots;
+  RobotList robots;
   std::set<SourceId> sources;
   for (const auto& [name, robot] : models_.all()) {
     if (!robot.inWorld() || std::none_of(robot.model->bodies.begin(), robot.model->bodies.end(), differs)) continue;
     robots.push_back(robot.model);
     sources.insert(SourceId::ofRobot(name));
   }
-  if (!robots.empty()) replace([&](const SourceId& source) { return sources.count(source) != 0; }, robots);
+  if (!robots.empty()) {
+    movers_.exchange([&](const SourceId& source) { return sources.count(source) != 0; }, moversOf(robots));
+  }
   paddings_changed_ = false;
 }
 

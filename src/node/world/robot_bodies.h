@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,16 @@
 #include "node/world/robot_models.h"
 
 namespace hgrid {
+
+/// Models of robots.
+using RobotList = std::vector<std::shared_ptr<const LoadedRobot>>;
+
+/// Bodies of robots that come into the world, made beside the ticks.
+struct PreparedRobotBodies {
+  std::set<std::string> leaving;  ///< names of the robots whose bodies leave
+  RobotList coming;               ///< the robots whose bodies come
+  NewMovers movers;               ///< of `coming`, with a scene that is prepared for the change
+};
 
 /// The robots of the world: their models, and their links as bodies of the scene.
 ///
@@ -33,10 +44,18 @@ class RobotBodies {
 
   /// Replaces the model of the robot of the same name, or adds a robot. An absent robot stays absent.
   /// @throws Refusal limit (~max_bodies), or as Scene::exchange()
-  void set(LoadedRobot robot);
+  /// @param robot     not null
+  /// @param prepared  see prepare(); null: none
+  void set(std::shared_ptr<const LoadedRobot> robot, PreparedRobotBodies* prepared = nullptr);
   /// Applies changes of robots, all of them or none. @param world_frame  empty: not known yet
   /// @throws ChangeRefusal as edit() and checkSharesRoot(), or limit (~max_bodies); Refusal as Scene::exchange()
-  void apply(const RobotChanges& changes, const std::string& world_frame);
+  /// @param prepared  see prepare(); null: none
+  void apply(const RobotChanges& changes, const std::string& world_frame, PreparedRobotBodies* prepared = nullptr);
+  /// Prepares the bodies of robots for set() or apply(), so that they take less time. Any thread may call this.
+  /// @param before  the robots of the tick with the snapshot. @param after  the robots after the change
+  /// @throws Refusal as Scene::prepare()
+  static std::shared_ptr<PreparedRobotBodies> prepare(const RobotEntries& before, const RobotEntries& after,
+                                                      const Snapshot& newest, const Scene& scene);
   /// Notes why the newest description of a robot could not be used. Does nothing if the robot was removed, or is absent
   /// and not loaded.
   void noteRefused(const std::string& robot, const std::string& sentence);
@@ -52,11 +71,10 @@ class RobotBodies {
   void padLinks();
 
  private:
-  using Robots = std::vector<std::shared_ptr<const LoadedRobot>>;
-
   const LoadedRobot* findTooLarge(const RobotEntries& next) const;
-  void exchange(RobotEntries next, const std::function<bool(const SourceId&)>& leaves_too = nullptr);
-  void replace(const std::function<bool(const SourceId&)>& leaves, const Robots& coming);
+  void exchange(RobotEntries next, PreparedRobotBodies* prepared,
+                const std::function<bool(const SourceId&)>& leaves_too = nullptr);
+  NewMovers moversOf(const RobotList& coming) const;
   bool hasOtherPadding(const Body& link) const;
 
   const Params& params_;

@@ -85,9 +85,21 @@ void World::beginEpoch() {
   poses_.beginEpoch();
 }
 
-void World::applyRobots(const RobotChanges& changes) {
+void World::applyRobots(const RobotChanges& changes, PreparedRobotBodies* prepared) {
   findWorldFrame();
-  robots_.apply(changes, world_frame_);
+  robots_.apply(changes, world_frame_, prepared);
+}
+
+std::shared_ptr<PreparedRobotBodies> World::prepareRobots(const std::function<void(RobotEntries&)>& edit,
+                                                          const std::shared_ptr<const Tick>& newest) const {
+  if (!newest || !newest->snapshot) return nullptr;
+  try {
+    RobotEntries after = *newest->robots;
+    edit(after);
+    return RobotBodies::prepare(*newest->robots, after, *newest->snapshot, scene_);
+  } catch (const Refusal&) {
+    return nullptr;  // setRobot() or applyRobots() finds out whether the change must be refused
+  }
 }
 
 void World::setMap(const LoadedMap& map) {

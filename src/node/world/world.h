@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -38,7 +39,8 @@ namespace hgrid {
 /// Makes the ticks: each tick updates the Scene with the transforms and the sources, then takes a snapshot.
 ///
 /// The members of this class do the work. The class itself only decides in which order a change or a tick uses them.
-/// Only the tick thread may call its functions, except prepareObstacles(). Any thread may read a Tick.
+/// Only the tick thread may call its functions, except prepareRobots() and prepareObstacles(). Any thread may read a
+/// Tick.
 ///
 /// A call that throws, even because memory ran out, changes nothing. Only tick() may leave its work half done if memory
 /// runs out; the next tick completes it.
@@ -57,9 +59,17 @@ class World {
   const TfIntake& transforms() const { return transforms_; }
 
   /// Replaces the model of a robot, or adds a robot. See RobotBodies::set().
-  void setRobot(LoadedRobot robot) { robots_.set(std::move(robot)); }
+  /// @param prepared  result of prepareRobots() for the same robot; null: none
+  void setRobot(std::shared_ptr<const LoadedRobot> robot, PreparedRobotBodies* prepared = nullptr) {
+    robots_.set(std::move(robot), prepared);
+  }
   /// Applies changes of robots, all of them or none. See RobotBodies::apply().
-  void applyRobots(const RobotChanges& changes);
+  /// @param prepared  result of prepareRobots() for the same changes; null: none
+  void applyRobots(const RobotChanges& changes, PreparedRobotBodies* prepared = nullptr);
+  /// Prepares setRobot() or applyRobots(), so that the tick with the change takes less time. Any thread except the tick
+  /// thread may call this. See PrepareRobots. @param newest  null: there is no tick yet
+  std::shared_ptr<PreparedRobotBodies> prepareRobots(const std::function<void(RobotEntries&)>& edit,
+                                                     const std::shared_ptr<const Tick>& newest) const;
   /// Returns the robots, also those that are absent or not loaded.
   const RobotModels& robots() const { return robots_.models(); }
   /// Replaces the map of the same name, if there is one.

@@ -102,7 +102,7 @@ void AuditedWorld::addRobot(double off, bool published) {
   Pose base_from_tool = Pose::Identity();
   base_from_tool.translation().x() = 0.5 + off;
   robot.groups = {{"arm_base", {{0, Pose::Identity()}, {1, base_from_tool}}}};
-  world_.world().setRobot(robot);
+  world_.world().setRobot(std::make_shared<const LoadedRobot>(robot));
   if (!published) return;
   geometry_msgs::TransformStamped fixed = randomTransform("arm_base", "arm_tool", 0.0);
   fixed.transform = geometry_msgs::Transform();

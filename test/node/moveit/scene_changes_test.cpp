@@ -192,7 +192,7 @@ TEST_F(SceneWorld, ALinkOfSeveralRobotsNeedsTheNameOfTheRobot) {
   twin.links.clear();
   twin.links["twin/hand"] = {1, Pose::Identity()};
   twin.without_collision.clear();
-  world_.setRobot(twin);
+  world_.setRobot(std::make_shared<const LoadedRobot>(twin));
   tick();
   take(sceneSphere(Object::ADD, "part", 1));
   EXPECT_EQ(refusedScene(attachedTo("hand", sceneObject(Object::ADD, "part"))), Code::conflict);

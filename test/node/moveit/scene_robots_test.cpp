@@ -76,7 +76,7 @@ TEST_F(SceneRobots, APaddingHoldsUntilAnotherOneIsSent) {
   const std::uint64_t revision = tick().structure().revision;
   EXPECT_EQ(pad({{"hand", 0.25}, {"base", 0.0}}), Code::ok);
   EXPECT_EQ(tick().structure().revision, revision) << "a message that repeats the paddings must change nothing";
-  world_.setRobot(arm());
+  world_.setRobot(std::make_shared<const LoadedRobot>(arm()));
   EXPECT_EQ(paddingOf("arm/hand"), 0.25) << "also after the robot was loaded again";
   EXPECT_EQ(pad({{"arm/base", 0.5}}), Code::ok);
   EXPECT_EQ(paddingOf("arm/hand"), 0.25) << "a difference keeps the other paddings";
@@ -93,7 +93,7 @@ TEST_F(SceneRobots, APaddingHoldsUntilAnotherOneIsSent) {
 TEST_F(SceneRobots, TheLargerOneOfTwoPaddingsCounts) {
   LoadedRobot robot = arm();
   robot.bodies[1].shapes[0].padding = 0.25;  // as ~padding says
-  world_.setRobot(robot);
+  world_.setRobot(std::make_shared<const LoadedRobot>(robot));
   for (const auto& [sent, counts] : {std::pair(0.125, 0.25), std::pair(0.5, 0.5), std::pair(0.0, 0.25)}) {
     EXPECT_EQ(pad({{"hand", sent}}), Code::ok);
     EXPECT_EQ(paddingOf("arm/hand"), counts);
@@ -175,7 +175,7 @@ TEST_F(SceneRobots, NamesOfTheMatrixAreThoseOfTheRobotsInTheWorld) {
     body.name = "second" + body.name.substr(3);
     second.links[body.name] = {0, Pose::Identity()};
   }
-  world_.setRobot(second);
+  world_.setRobot(std::make_shared<const LoadedRobot>(second));
   EXPECT_FALSE(mayTouch(tick(), "arm/hand", "obstacle/post")) << "two robots have such a link";
   EXPECT_TRUE(mayTouch(*tick_->snapshot, "second/hand", "obstacle/post"));
   bool has_map = false;

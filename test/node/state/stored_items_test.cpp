@@ -207,7 +207,7 @@ TEST_F(Obstacles, AMapThatAnEarlierRunLoadedIsMissedUntilItIsReadAgainAndARemove
   stored.maps["hall"] = std::nullopt;
   stored.maps["late"] = params.maps[0];
   World second(settingsOf(params), false, 2, ledger_, phase_, stored);
-  second.setRobot(arm());
+  second.setRobot(std::make_shared<const LoadedRobot>(arm()));
   const auto tick = second.tick(momentAt(time_));
   EXPECT_EQ(tick->snapshot->reasonOf("map/hall"), "");
   EXPECT_NE(tick->snapshot->reasonOf("map/yard"), "");
@@ -249,7 +249,7 @@ class StoredObstacles : public Obstacles {
   std::unique_ptr<World> restarted(const Params& params) {
     auto world =
         std::make_unique<World>(settingsOf(params), false, 2, ledger_, phase_, storedWorldOf(items_, *phase_, kClocks));
-    world->setRobot(arm());
+    world->setRobot(std::make_shared<const LoadedRobot>(arm()));
     world->tick(momentAt(time_));
     return world;
   }
@@ -379,7 +379,7 @@ TEST_F(StoredObstacles, ThatWereLostAreLostAgain) {
   store();
   auto world =
       std::make_unique<World>(settingsOf(params()), false, 2, ledger_, phase_, storedWorldOf(items_, *phase_, kClocks));
-  world->setRobot(arm());
+  world->setRobot(std::make_shared<const LoadedRobot>(arm()));
   const auto pose = [&](const std::string& name, double later) {
     const auto tick = world->tick(momentAt(time_ + later));
     return tick->snapshot->poses()[indexOf(*tick->snapshot, "obstacle/" + name)];

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "src/node/sources/obstacle_change.h"
+#include "src/node/world/robot_edits.h"
 #include "src/node/world/world.h"
 #include "test/node/support/settings.h"
 #include "test/node/support/transform_views.h"
@@ -113,9 +114,20 @@ class Fleet : public ::testing::Test {
   }
   const Snapshot& snapshot() const { return *tick_->snapshot; }
 
+  std::shared_ptr<PreparedRobotBodies> prepare(const RobotChanges& changes) const {
+    return world_.prepareRobots(
+        [&](RobotEntries& robots) {
+          for (const RobotChange& change : changes) edit(change, params_, robots);
+        },
+        tick_);
+  }
+  /// Prepares the changes if those before were not prepared.
   std::optional<Refused> refused(const RobotChanges& changes) {
     try {
-      world_.applyRobots(changes);
+      std::shared_ptr<PreparedRobotBodies> prepared;
+      prepares_ = !prepares_;
+      if (prepares_) prepared = prepare(changes);
+      world_.applyRobots(changes, prepared.get());
     } catch (const ChangeRefusal& refusal) {
       sentence_ = refusal.what();
       return Refused(refusal.code(), refusal.index());
@@ -143,7 +155,8 @@ class Fleet : public ::testing::Test {
   World world_;
   double time_ = 0.0;
   std::shared_ptr<const Tick> tick_;
-  std::string sentence_;  // of the last refusal
+  std::string sentence_;   // of the last refusal
+  bool prepares_ = false;  // whether the last refused() prepared its changes
 };
 
 }  // namespace test

@@ -16,7 +16,7 @@ namespace {
 std::string cartName(int number) { return "amr" + std::to_string(number); }
 
 TEST_F(Fleet, RobotsOfOneRequestJoinInOneTick) {
-  world_.setRobot(cartNamed("boss"));
+  world_.setRobot(std::make_shared<const LoadedRobot>(cartNamed("boss")));
   sending["boss"] = -50.0;
   tickFor(0.5);
   const std::uint64_t revision = snapshot().structure().revision;
@@ -35,7 +35,7 @@ TEST_F(Fleet, RobotsOfOneRequestJoinInOneTick) {
 }
 
 TEST_F(Fleet, ARobotThatIsDeclaredAbsentIsNoSourceAndASilentOneIsLost) {
-  world_.setRobot(cartNamed("boss"));
+  world_.setRobot(std::make_shared<const LoadedRobot>(cartNamed("boss")));
   sending = {{"boss", -50.0}, {"a", 0.0}, {"b", 0.25}, {"c", 9.0}};
   EXPECT_EQ(refused({joins("a"), joins("b"), joins("c")}), std::nullopt);
   tickFor(1.0);
@@ -67,7 +67,7 @@ TEST_F(Fleet, ARobotThatIsDeclaredAbsentIsNoSourceAndASilentOneIsLost) {
 }
 
 TEST_F(Fleet, APresentRobotThatSendsNothingMakesTheWorldIncomplete) {
-  world_.setRobot(cartNamed("boss"));
+  world_.setRobot(std::make_shared<const LoadedRobot>(cartNamed("boss")));
   sending["boss"] = 0.0;
   EXPECT_EQ(refused({joins("a"), isAbsent("a")}), std::nullopt);
   tickFor(0.5);
@@ -96,7 +96,7 @@ TEST_F(Fleet, ARobotThatIsRemovedIsForgotten) {
 
 TEST_F(Fleet, RequestsAreRefusedAsAWholeWithTheIndexOfTheChange) {
   sending = {{"boss", -50.0}, {"a", 0.0}};
-  world_.setRobot(cartNamed("boss"));
+  world_.setRobot(std::make_shared<const LoadedRobot>(cartNamed("boss")));
   ASSERT_EQ(refused({joins("a")}), std::nullopt);
   RobotChange other = joins("a", 3);
   RobotSpec spec = *other.spec;
@@ -114,7 +114,7 @@ TEST_F(Fleet, RequestsAreRefusedAsAWholeWithTheIndexOfTheChange) {
 }
 
 TEST_F(Fleet, LimitsCountRobotsBodiesAndTexts) {
-  world_.setRobot(cartNamed("boss"));
+  world_.setRobot(std::make_shared<const LoadedRobot>(cartNamed("boss")));
   RobotChanges changes;
   for (int i = 0; i < 29; ++i) changes.push_back(joins(cartName(i), std::size_t(i)));
   EXPECT_EQ(refused(changes), std::nullopt);
@@ -148,7 +148,7 @@ TEST_F(Fleet, LimitsCountRobotsBodiesAndTexts) {
 }
 
 TEST_F(Fleet, WhatWasRefusedBeforeAnAbsenceStillMakesTheRobotIncompleteAfterIt) {
-  world_.setRobot(cartNamed("boss"));
+  world_.setRobot(std::make_shared<const LoadedRobot>(cartNamed("boss")));
   sending["boss"] = 0.0;
   tickFor(0.5);
   world_.setMissing(SourceId::ofRobot("boss"), "PARSE robot 'boss': broken");
@@ -161,20 +161,20 @@ TEST_F(Fleet, WhatWasRefusedBeforeAnAbsenceStillMakesTheRobotIncompleteAfterIt) 
   EXPECT_EQ(refused({isPresent("boss")}), std::nullopt);
   tickFor(0.5);
   EXPECT_EQ(snapshot().reasonOf("boss"), reason);
-  world_.setRobot(cartNamed("boss"));
+  world_.setRobot(std::make_shared<const LoadedRobot>(cartNamed("boss")));
   tick();
   EXPECT_TRUE(snapshot().complete());
 }
 
 TEST_F(Fleet, AnAbsentRobotKeepsANewModelForItsReturn) {
-  world_.setRobot(cartNamed("boss"));
+  world_.setRobot(std::make_shared<const LoadedRobot>(cartNamed("boss")));
   sending["boss"] = 0.0;
   tick();
   ASSERT_EQ(refused({isAbsent("boss")}), std::nullopt);
   LoadedRobot shorter = cartNamed("boss");
   shorter.bodies.pop_back();
   shorter.groups[0].members.pop_back();
-  world_.setRobot(shorter);
+  world_.setRobot(std::make_shared<const LoadedRobot>(shorter));
   tick();
   EXPECT_TRUE(bodies().empty());
   ASSERT_EQ(refused({isPresent("boss")}), std::nullopt);
@@ -183,7 +183,7 @@ TEST_F(Fleet, AnAbsentRobotKeepsANewModelForItsReturn) {
 }
 
 TEST_F(Fleet, AResetRestoresTheConfiguredRobots) {
-  world_.setRobot(cartNamed("boss"));
+  world_.setRobot(std::make_shared<const LoadedRobot>(cartNamed("boss")));
   sending["boss"] = 0.0;
   EXPECT_EQ(refused({joins("a"), isAbsent("boss")}), std::nullopt);
   tick();
@@ -199,7 +199,7 @@ TEST_F(Fleet, AResetRestoresTheConfiguredRobots) {
 }
 
 TEST_F(Fleet, WhatAnAbsentRobotCarriedStaysAndIsLost) {
-  world_.setRobot(cartNamed("boss"));
+  world_.setRobot(std::make_shared<const LoadedRobot>(cartNamed("boss")));
   sending = {{"boss", 0.0}, {"a", 5.0}};
   ASSERT_EQ(refused({joins("a")}), std::nullopt);
   tick();
@@ -236,7 +236,7 @@ class FleetWithoutWorldFrame : public Fleet {
 
 TEST_F(FleetWithoutWorldFrame, OnlyRobotsWithTheSameRootJoin) {
   EXPECT_EQ(refused({joins("a", 2)}), Refused(Code::not_ready, 2));
-  world_.setRobot(cartNamed("boss"));
+  world_.setRobot(std::make_shared<const LoadedRobot>(cartNamed("boss")));
   EXPECT_EQ(refused({joins("a", 2)}), Refused(Code::conflict, 2));
   EXPECT_NE(sentence_.find("set ~world_frame to a frame that tf connects to all robots"), std::string::npos);
   RobotChange twin = joins("twin");
@@ -253,7 +253,7 @@ TEST_F(FleetWithoutWorldFrame, OnlyRobotsWithTheSameRootJoin) {
 /// unless a robot that should be there is silent.
 TEST_F(Fleet, IsWhatASimpleModelSays) {
   Random random(3);
-  world_.setRobot(cartNamed("boss"));
+  world_.setRobot(std::make_shared<const LoadedRobot>(cartNamed("boss")));
   sending["boss"] = -3.0;
   struct Cart {
     bool absent = false, configured = false;  // a robot that joins is not equal to the configured one

@@ -37,7 +37,7 @@ TEST(MoverPoses, IfThePoseOfOneBodyIsRefusedNoBodyOfTheFrameMoves) {
   Params params;
   params.world_limit = 100.0;
   SimulatedWorld world({}, Clock::wall, params);
-  world.world().setRobot(twins());
+  world.world().setRobot(std::make_shared<const LoadedRobot>(twins()));
   for (const double x : {1.0, 97.0}) {  // at 97 m, only the body "far" is beyond the limit
     world.wait(0.02);
     world.sendNow("/robot", "base", "hand", x);

@@ -53,7 +53,7 @@ TEST_F(Obstacles, ThatAreAttachedStayWhereTheirLinkWas) {
   without_hand.links.erase("arm/hand");
   without_hand.links.erase("arm/tool");
   without_hand.without_collision.clear();
-  world_.setRobot(without_hand);
+  world_.setRobot(std::make_shared<const LoadedRobot>(without_hand));
   for (int second = 1; second <= 20; ++second) tick_ = world_.tick(momentAt(time_ + second));  // the cart is silent
   const Snapshot& snapshot = *tick_->snapshot;
   EXPECT_EQ(placesIn(snapshot), (Places{{"part", last}, {"post", 3}}));
@@ -75,7 +75,7 @@ TEST_F(Obstacles, ThatAreAttachedMoveWithANewModelOfTheRobot) {
   longer.groups[1].members.emplace_back(2, Pose::Identity());
   longer.links["arm/finger"] = {1, Pose::Identity()};
   longer.links["arm/tool"].frame_from_link.translation().x() = 0.375;
-  world_.setRobot(longer);
+  world_.setRobot(std::make_shared<const LoadedRobot>(longer));
   const Snapshot& snapshot = tick();
   EXPECT_EQ(placesIn(snapshot).at("part"), cart(time_) + 0.875);
   EXPECT_TRUE(mayTouch(snapshot, "obstacle/part", "arm/finger"));

@@ -118,7 +118,7 @@ inline LoadedRobot arm() {
 class Obstacles : public ::testing::Test {
  protected:
   Obstacles() : phase_(makeFclNarrowPhase()), world_(settingsOf(params()), false, 1, ledger_, phase_) {
-    world_.setRobot(arm());
+    world_.setRobot(std::make_shared<const LoadedRobot>(arm()));
     tick();
   }
 

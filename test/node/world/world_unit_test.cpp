@@ -79,7 +79,8 @@ LoadedCloud cloudOf(double time, unsigned seed) {
 }
 
 Step settingRobot(const std::string& name, double margin) {
-  return {"setRobot " + name, [=](World& world, Ticks&) { world.setRobot(armOf(name, margin)); }};
+  return {"setRobot " + name,
+          [=](World& world, Ticks&) { world.setRobot(std::make_shared<const LoadedRobot>(armOf(name, margin))); }};
 }
 Step settingMap(const std::string& name, double x, unsigned seed) {
   const LoadedMap map = mapOf(name, x, seed);
