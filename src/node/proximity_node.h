@@ -63,7 +63,7 @@ class ProximityNode {
   Commons commons_;
   QuerySketch sketch_;
   StateKeeper state_;
-  World world_;  // only the tick thread uses it; all threads may use its transforms, and its functions to prepare
+  World world_;  // only the tick thread uses it, except for the functions that all threads may call
   TickJobs jobs_;
   Stopwatch stopwatch_;  // only the tick thread uses it
   Auditor auditor_;

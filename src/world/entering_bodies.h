@@ -12,10 +12,10 @@
 
 namespace hgrid {
 
-/// Bodies that enter a scene. They are shared, because snapshots keep them.
+/// Bodies that enter a scene. They are shared, because snapshots keep them alive.
 using EnteringBodies = std::vector<std::shared_ptr<const Body>>;
 
-constexpr double kLargestMargin = 1e3;  ///< [m] also the largest padding, hysteresis, growth cap and finest edge
+constexpr double kLargestMargin = 1e3;  ///< [m] largest margin, padding, hysteresis, growth cap and finest edge
 /// [m] Largest coordinate of a shape in the frame of its body, and of a body in the world frame.
 constexpr double kFarthestShape = 1e6;
 
@@ -30,8 +30,8 @@ std::size_t planesOf(const Body& body);
 void checkEntering(const EnteringBodies& in, std::size_t count, std::size_t planes, const SceneOptions& options,
                    const std::function<bool(const std::string&)>& stays);
 
-/// Returns whether a new obstacle is the old one at another place, so that its pairs continue. It must be fixed: the
-/// pose of a moving obstacle may be unknown until its frame is found, so it becomes a new body.
+/// Returns whether `after` is the fixed obstacle `before`, perhaps at another place. Its pairs then continue. A moving
+/// obstacle becomes a new body, because its pose may be unknown until its frame is found.
 bool isSameElsewhere(const Body& before, const Body& after);
 
 /// @throws Refusal out_of_range unless `value` [m] is within 0 .. `limit`

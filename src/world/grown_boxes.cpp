@@ -101,7 +101,8 @@ void Scene::State::fillGrid(PooledSnapshot& pooled) {
     pooled.setBroadPhase(makeBroadPhase({options.broad_phase, structure->scale.finest_edge, options.threads}));
     BroadPhase& grid = *pooled.broad_phase;
     grid.setFixed(structure->fixed_proxies);
-    grid.setOverlapFilter(OverlapFilter::of<isReported>(structure.get()));  // the snapshot keeps the structure alive
+    grid.setOverlapFilter(OverlapFilter::of<isReported>(
+        static_cast<const Structure*>(structure.get())));  // the snapshot keeps the structure alive
     grid.setPairBound(limits.boundOf(structure->body_of_proxy.size()));
     pooled.grid_revision = structure->revision;
   }

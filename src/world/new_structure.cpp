@@ -18,7 +18,7 @@ PairFilter Scene::State::filterFor(const BodyList& next, const std::vector<std::
   if (!rules_changed) earlier = &structure->filter;
   if (prepared && prepared->revision == structure->revision) earlier = &prepared->filter;
   if (earlier == nullptr) return PairFilter(next, options.pair_kinds, options.allowed_pairs);
-  return entered.empty() && left.empty() ? *earlier : earlier->forBodies(next, known, name_matches);
+  return bodies_changed ? earlier->forBodies(next, known, name_matches) : *earlier;
 }
 
 /// Returns how the bodies of the scene differ from those of the present structure.
@@ -59,7 +59,7 @@ void Scene::State::setStructure(std::shared_ptr<const SceneStructure> next, std:
   for (std::uint32_t body = 0; body < structure->ids.size(); ++body) body_of_slot[structure->ids[body].slot] = body;
   entered.clear();
   left.clear();
-  options_changed = false;
+  options_changed = bodies_changed = false;
   rules_changed = options.allowed_pairs != structure->filter.rules();
   prepared.reset();
   name_matches.clear();

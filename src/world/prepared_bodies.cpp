@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hgrid_proximity/bodies/name.h"
+#include "hgrid_proximity/geometry/float_environment.h"
 #include "hgrid_proximity/refusal.h"
 #include "world/scene_state.h"
 
@@ -38,6 +39,7 @@ PreparedBodies::~PreparedBodies() = default;
 
 PreparedBodies Scene::prepare(const Snapshot& newest, const std::vector<std::string>& out, std::vector<Body> in,
                               const std::optional<std::vector<PairRule>>& rules) const {
+  const DefaultFloatEnvironment environment;
   const SceneOptions& options = state_->first_options;
   PreparedBodies prepared;
   PreparedBodies::Data& data = *prepared.data_;
@@ -49,7 +51,7 @@ PreparedBodies Scene::prepare(const Snapshot& newest, const std::vector<std::str
     const std::uint32_t body = before.find(name);
     if (body == Structure::kNone) {
       throw Refusal(Code::unknown_id,
-                    "there is no body '" + printable(name) + "'; only an existing body can be removed (see ~bodies)");
+                    "there is no body '" + printable(name) + "'; only an existing body can be removed");
     }
     data.out.push_back(body);
   }
@@ -90,16 +92,15 @@ PreparedBodies Scene::prepare(const Snapshot& newest, const std::vector<std::str
   return prepared;
 }
 
-std::vector<BodyId> Scene::exchangePrepared(const std::vector<BodyId>& out, PreparedBodies prepared) {
-  PreparedBodies::Data& data = *prepared.data_;
+std::vector<BodyId> Scene::exchangePrepared(const std::vector<BodyId>& out, PreparedBodies&& in) {
+  PreparedBodies::Data& data = *in.data_;
   if (state_->isUpToDate(data, out)) return state_->exchange(data);
-  // The next commit makes the lists.
-  std::vector<BodyId> ids = state_->exchange(out, std::move(data.in));
-  if (!data.matches.names.empty()) prepareNames(std::move(data.matches));
-  return ids;
+  // The prepared structure is out of date, so the next commit makes one.
+  if (!data.matches.names.empty()) prepareNames(std::move(data.matches));  // it may throw, so it comes first
+  return state_->exchange(out, std::move(data.in));
 }
 
-/// Returns whether the lists are still right, and a change removes the bodies for which they were made.
+/// Returns whether `prepared` was made for the present structure, and for the removal of exactly the bodies `out`.
 bool Scene::State::isUpToDate(const PreparedBodies::Data& prepared, const std::vector<BodyId>& out) const {
   if (isOutdated() || structure != prepared.before || out.size() != prepared.out.size()) return false;
   std::vector<BodyId> expected;
@@ -111,7 +112,7 @@ bool Scene::State::isUpToDate(const PreparedBodies::Data& prepared, const std::v
 
 std::vector<BodyId> Scene::State::exchange(PreparedBodies::Data& prepared) {
   std::vector<EnteringBody>& in = prepared.change.in;
-  std::vector<bool> stays(structure->bodies.size());  // bodies that are replaced by the same obstacle elsewhere
+  std::vector<bool> stays(structure->bodies.size());  // whether the same obstacle at another place keeps the handle
   std::vector<std::uint32_t> leaving;                 // slots
   std::size_t entering = 0;
   for (const EnteringBody& body : in) {

@@ -94,7 +94,7 @@ std::vector<std::uint32_t> Scene::State::slotsFor(const std::vector<std::uint32_
 }
 
 /// Reserves memory, so that putIn() does not allocate. @param numbers  the slots that will be used
-/// @returns the number of slots after that
+/// @returns the number of slots when these are used
 std::size_t Scene::State::reserveSlots(const std::vector<std::uint32_t>& numbers) {
   const std::size_t last = numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end()) + std::size_t{1};
   const std::size_t count = std::max(slots.size(), last);
@@ -180,21 +180,23 @@ std::vector<BodyId> Scene::State::exchange(const std::vector<BodyId>& out, Enter
     names.emplace_hint(names.end(), in[entering[i]]->name, numbers[i]);  // fast if the names are sorted
   }
   reserveSlots(numbers);
-  left.reserve(left.size() + leaving.size() + staying.size());
+  const std::size_t most_left = left.size() + leaving.size() + staying.size();
+  if (left.capacity() < most_left) left.reserve(std::max(most_left, 2 * left.capacity()));
   // The code below allocates no memory, so it cannot fail.
-  const auto leaves = [this](std::uint32_t slot) {
+  bodies_changed = bodies_changed || !out.empty() || !ids.empty();
+  const auto noteLeft = [this](std::uint32_t slot) {
     const std::uint32_t body = placeOf(slot);
     if (body != Structure::kNone) left.push_back(body);
     return body != Structure::kNone;
   };
   for (const std::uint32_t slot : leaving) {
-    if (!leaves(slot)) entered.erase(bodies[slot]->name);
+    if (!noteLeft(slot)) entered.erase(bodies[slot]->name);
     takeOut(slot);
   }
-  for (const std::uint32_t slot : staying) leaves(slot);
+  for (const std::uint32_t slot : staying) noteLeft(slot);
   entered.merge(names);
   for (std::size_t i = 0; i < entering.size(); ++i) ids[entering[i]] = putIn(numbers[i], in[entering[i]]);
-  for (std::size_t i = 0; i < ids.size(); ++i) bodies[ids[i].slot] = std::move(in[i]);  // also those that kept a slot
+  for (std::size_t i = 0; i < ids.size(); ++i) bodies[ids[i].slot] = std::move(in[i]);  // also those that keep a slot
   return ids;
 }
 

@@ -64,7 +64,7 @@ struct Scene::State {
   void noteChange(std::uint32_t slot);
 
   SceneOptions options;
-  const SceneOptions first_options;  // those of the start; they never change, so any thread may read them
+  const SceneOptions first_options;  // those of the constructor; they never change, so any thread may read them
   PairLimits limits;
   const std::shared_ptr<const Building> building;  // relative to options.origin; null: there are no rooms
   std::vector<Slot> slots;
@@ -74,9 +74,10 @@ struct Scene::State {
   std::vector<std::uint32_t> free_slots;               // indices of the unused slots; has capacity for all slots
   std::size_t body_count = 0;                          // number of bodies in the scene
   std::map<std::string, std::uint32_t> entered;        // slots of the bodies that `structure` lacks, by name
-  std::vector<std::uint32_t> left;        // bodies of `structure` that left or were replaced; some occur twice
-  bool options_changed = true;            // whether `structure` was made with other options
-  bool rules_changed = true;              // whether options.allowed_pairs are others than the rules of `structure`
+  std::vector<std::uint32_t> left;        // bodies of `structure` that left or were replaced; one may occur twice
+  bool options_changed = true;            // whether tune() changed an option since `structure` was made
+  bool bodies_changed = true;             // whether exchange() was called since, even if all that came left again
+  bool rules_changed = true;              // whether options.allowed_pairs differ from the rules of `structure`
   std::optional<PreparedRules> prepared;  // has the same rules as options.allowed_pairs
   std::vector<NameMatches> name_matches;  // see Scene::prepareNames(); the oldest come first
   std::uint64_t sequence = 0, epoch = 0, commits = 0;
@@ -85,7 +86,7 @@ struct Scene::State {
     return id.slot < slots.size() && slots[id.slot].used && slots[id.slot].generation == id.generation;
   }
   /// Returns whether the next commit must make a new structure.
-  bool isOutdated() const { return options_changed || rules_changed || !entered.empty() || !left.empty(); }
+  bool isOutdated() const { return options_changed || rules_changed || bodies_changed; }
   std::uint32_t slotOf(const std::string& name) const;
   std::uint32_t placeOf(std::uint32_t slot) const;
   std::vector<std::uint32_t> checkedSlots(const std::vector<BodyId>& out);
@@ -95,7 +96,7 @@ struct Scene::State {
   BodyId putIn(std::uint32_t slot, std::shared_ptr<const Body> body);
   std::vector<BodyId> exchange(const std::vector<BodyId>& out, EnteringBodies in);
 
-  // prepared_bodies.cpp: changes whose lists were made before.
+  // prepared_bodies.cpp: applies prepared changes.
 
   bool isUpToDate(const PreparedBodies::Data& prepared, const std::vector<BodyId>& out) const;
   std::vector<BodyId> exchange(PreparedBodies::Data& prepared);
@@ -146,7 +147,8 @@ struct Scene::State {
   void fillDoubtful(Snapshot& snapshot) const;
 
   std::shared_ptr<const SceneStructure> structure = std::make_shared<SceneStructure>();
-  std::vector<std::uint32_t> body_of_slot;  // index of the body in `structure`; kNone: it is not there
+  std::vector<std::uint32_t> body_of_slot;  // index in `structure`, or kNone, of the body that was in the slot when
+                                            // `structure` was set; see placeOf()
   std::shared_ptr<const Snapshot> last;     // snapshot of the last commit; null before the first one
   Horizon horizon;
   MapPairs map_pairs;

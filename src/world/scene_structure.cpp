@@ -104,7 +104,7 @@ std::shared_ptr<SceneStructure> nextStructure(const SceneStructure& before, cons
   auto out = change.out.begin();
   auto in = change.in.begin();
   std::uint32_t body = 0;
-  // Appends the bodies of the structure before, from the next one up to the one with index `end`, which is left out.
+  // Appends the bodies of the structure before that stay, from the next one up to the one before index `end`.
   const auto keepUntil = [&](std::uint32_t end) {
     for (; body < end; ++body) {
       if (out != change.out.end() && *out == body) {

@@ -22,13 +22,13 @@ struct SceneStructure final : Structure {
   std::vector<Aabb> sizes;
   std::vector<ProxyId> fixed_proxies;    ///< proxies of fixed bodies, except planes, ascending
   std::vector<std::uint32_t> uncovered;  ///< bodies that are neither covered nor waived, ascending
-  GridScale scale;                       ///< of the grid, for these sizes
+  GridScale scale;                       ///< sizes of the cells of the grid, computed from `sizes`
 };
 
-/// A body that is new in a structure, or replaces a body that had the same handle and name.
+/// A body that enters a structure. It is new, or it replaces the body of the same name and keeps its handle.
 struct EnteringBody {
   std::shared_ptr<const Body> body;           ///< never null
-  BodyId id;                                  ///< its handle
+  BodyId id;                                  ///< its handle; Scene::prepare() does not know that of a new body
   std::uint32_t replaces = Structure::kNone;  ///< index of the replaced body in the structure before, or kNone
 };
 
@@ -36,8 +36,6 @@ struct EnteringBody {
 struct BodyChange {
   std::vector<std::uint32_t> out;  ///< indices of the bodies that leave or are replaced, ascending
   std::vector<EnteringBody> in;    ///< sorted by name
-
-  bool empty() const { return out.empty() && in.empty(); }
 };
 
 /// Makes the filter of a structure.
@@ -46,8 +44,8 @@ struct BodyChange {
 using FilterMaker = std::function<PairFilter(const BodyList& bodies, const std::vector<std::uint32_t>& known)>;
 
 /// Returns the structure that follows another one.
-/// @param margin   [m] the global margin now; options.margin is not used
-/// @param options  their rules are not used either
+/// @param margin   [m] the global margin now
+/// @param options  their `margin` and `allowed_pairs` are not used
 std::shared_ptr<SceneStructure> nextStructure(const SceneStructure& before, const BodyChange& change, double margin,
                                               const SceneOptions& options, const FilterMaker& filter);
 

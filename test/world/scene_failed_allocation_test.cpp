@@ -56,7 +56,7 @@ Step exchanging(const std::string& source, const std::vector<Body>& in, const st
           }};
 }
 
-/// As exchanging(), but the lists of the scene are prepared.
+/// As exchanging(), but with Scene::prepare() and Scene::exchangePrepared().
 Step exchangingPrepared(const std::string& source, const std::vector<Body>& in, const std::vector<std::string>& names) {
   return {"exchange prepared " + source, [=](Scene& scene, Snapshots& snapshots) {
             std::vector<BodyId> out;
@@ -309,6 +309,28 @@ TEST(SceneFailedAllocation, AfterABodyMovedAndLeftIsHarmless) {
   std::size_t failures = 0;
   tryAll(script, failures);
   EXPECT_GT(failures, 20u);
+}
+
+/// Claim: an exchange whose preparation is out of date changes nothing if it fails.
+TEST(SceneFailedAllocation, OfAnOutdatedExchangeChangesNothing) {
+  SceneOptions options;
+  options.allowed_pairs = {test::allow("obstacle/*", "obstacle/none*")};
+  std::size_t failures = 0;
+  bool failed = true;
+  for (std::size_t k = 1; failed; ++k) {
+    Scene scene(options);
+    const BodyId old = test::put(scene, test::ball("old"), test::at(0));
+    const auto newest = scene.commit(Time{1}, {});
+    PreparedBodies prepared = scene.prepare(*newest, {"obstacle/old"}, {test::ball("new"), test::ball("other")});
+    test::put(scene, test::ball("late"), test::at(0));
+    failed = test::failsAt(k, test::Failing::one, [&] { scene.exchangePrepared({old}, std::move(prepared)); });
+    BodyId id;
+    ASSERT_EQ(scene.size(), failed ? 2u : 3u) << "allocation " << k;
+    ASSERT_EQ(scene.find("obstacle/old", id), failed) << "allocation " << k;
+    ASSERT_EQ(scene.find("obstacle/new", id), !failed) << "allocation " << k;
+    failures += failed ? 1 : 0;
+  }
+  EXPECT_GT(failures, 5u);
 }
 
 /// Claim: a commit that fails keeps the prepared names for the next one. The test sets wrong bits to detect the use.

@@ -65,8 +65,7 @@ struct PreparedRules {
   std::uint64_t revision = 0;  ///< Structure::revision of the bodies for which the filter was made
 };
 
-/// Bodies that will enter a scene, and the lists of all bodies that the scene will then have. Scene::prepare() makes
-/// it.
+/// Bodies that will enter a scene, and the structure that the scene will then have: the result of Scene::prepare().
 class PreparedBodies {
  public:
   PreparedBodies(PreparedBodies&&) noexcept;             ///< the moved-from object may only be destroyed or assigned to
@@ -89,8 +88,8 @@ struct TickTimes {
 
 /// Holds the bodies of the world and their poses, and makes snapshots of them.
 ///
-/// A scene is the only writer of its snapshots. One thread at a time may call its functions. Any thread may read the
-/// snapshots.
+/// A scene is the only writer of its snapshots. One thread at a time may call its functions, except prepare(), which
+/// any thread may call at any time. Any thread may read the snapshots.
 ///
 /// Usage in each tick: call add(), remove(), place() and setState() for everything that changed, then commit().
 ///
@@ -118,18 +117,22 @@ class Scene {
   /// @returns the handles of the added bodies, in the order of `in`
   /// @throws Refusal unknown_id for a handle, dup_id if a handle occurs twice, or any Refusal of add()
   std::vector<BodyId> exchange(const std::vector<BodyId>& out, std::vector<Body> in);
-  /// Prepares exchangePrepared(): makes the lists and the pair filter of the bodies that the scene will then have. This
-  /// takes long if there are many bodies, so any thread may call it, while others use the scene.
-  /// @param newest  a snapshot of this scene, which should still be the newest one in exchangePrepared()
+  /// Prepares exchangePrepared(): makes the structure that the scene will then have. This takes long if there are many
+  /// bodies. Any thread may call it, also while another thread uses the scene.
+  /// @param newest  the newest snapshot of this scene. exchangePrepared() uses the structure only if the scene still
+  /// has
+  ///                that of this snapshot.
   /// @param out     names of the bodies to be removed
-  /// @param rules   the rules that setRules() will set after exchangePrepared(), before the next commit; nullopt: those
-  ///                of the snapshot stay
+  /// @param rules   the rules that setRules() will set after exchangePrepared(); nullopt: those of the snapshot stay.
+  /// If
+  ///                the rules are others at the next commit, it makes the pair filter again.
   /// @throws Refusal as exchange(), for the bodies of the snapshot
   PreparedBodies prepare(const Snapshot& newest, const std::vector<std::string>& out, std::vector<Body> in,
                          const std::optional<std::vector<PairRule>>& rules = std::nullopt) const;
-  /// As exchange(). Takes much less time if `in` was prepared for the same bodies `out`, and neither bodies nor rules
-  /// nor settings changed since the snapshot. Otherwise the result is the same, but the next commit() takes longer.
-  std::vector<BodyId> exchangePrepared(const std::vector<BodyId>& out, PreparedBodies in);
+  /// As exchange(). Takes much less time if `in` was prepared for the same bodies `out`, and if no body, rule, margin,
+  /// growth cap or horizon changed since the snapshot. Otherwise the result is the same, but the next commit() takes
+  /// longer. What is not used stays in `in`, because it takes long to destroy it.
+  std::vector<BodyId> exchangePrepared(const std::vector<BodyId>& out, PreparedBodies&& in);
   /// Sets `id` to the handle of the body with this name. @returns whether there is such a body
   bool find(const std::string& name, BodyId& id) const;
   /// Returns the description of a body.

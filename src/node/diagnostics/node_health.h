@@ -48,7 +48,8 @@ class NodeHealth {
   void noteLateness(bool late);
   /// Call this after each tick whose distances were measured. @param fault  why that failed; nullopt if it did not fail
   void noteDistances(const std::optional<Refusal>& fault);
-  /// Call this after each attempt to publish ~bodies and ~rules. @param fault  why it failed; nullopt if it did not fail
+  /// Call this after each attempt to publish ~bodies and ~rules.
+  /// @param fault  why it failed; nullopt if it did not fail
   void noteStructure(const std::optional<Refusal>& fault);
   /// @param ticks  the largest number of successive ticks in which the distance of a pair was not measured
   void noteLongestWait(std::uint64_t ticks);

@@ -15,8 +15,6 @@
 #include "node/params/params.h"
 #include "node/sources/robot_source.h"
 #include "node/tick/change_world.h"
-#include "node/tick/match_names.h"
-#include "node/tick/newest_tick.h"
 #include "node/tick/tick_jobs.h"
 #include "node/world/robot_models.h"
 
@@ -54,7 +52,7 @@ class RobotLoader {
   /// @throws whatever `change_world` throws
   std::shared_ptr<const Tick> change(const ChangeWorld& change_world, const std::function<void(World&)>& act,
                                      const PreparedRobots* prepared);
-  /// Prepares the bodies of robots for World::applyRobots(). @returns null if nothing can be prepared
+  /// Prepares the bodies of robots for World::applyRobots(). See PrepareRobots.
   std::shared_ptr<PreparedRobotBodies> prepareBodies(const RobotChanges& changes) const;
 
  private:

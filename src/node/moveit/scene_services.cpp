@@ -14,7 +14,6 @@
 #include "node/moveit/scene_message.h"
 #include "node/moveit/scene_reply.h"
 #include "node/services/guarded.h"
-#include "node/tick/match_names.h"
 #include "node/wire/checked.h"
 #include "node/world/world.h"
 

@@ -14,8 +14,8 @@
 
 namespace hgrid {
 
-/// Serves ~apply_obstacles. The thread that serves a request prepares the obstacles; a tick only adds them to the
-/// world.
+/// Serves ~apply_obstacles. The thread that serves a request prepares the obstacles and the new structure; a tick only
+/// takes them over.
 class ObstacleService {
  public:
   /// `envelope` and `params` must outlive this object.

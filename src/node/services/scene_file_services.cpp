@@ -100,10 +100,10 @@ void SceneFileServices::load(ServiceCall<msg::LoadScene>& call) const {
   const auto matches = matchNames({names.begin(), names.end()}, next->filter);
   const std::shared_ptr<PreparedObstacles> prepared = prepare_(*changes, &rules);
   call.tick = AnswerTick(change_world_([changes, next, matches, prepared](World& world) {
-    PreparedRules copy = *next;  // copied first, because nothing may fail after the obstacles were changed
+    PreparedRules rules_now = *next;  // copied first, because nothing may fail after the obstacles were changed
     world.prepareNames(matches);
     world.applyObstacles(*changes, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())), prepared.get());
-    world.setRules(std::move(copy));
+    world.setRules(std::move(rules_now));
   }));
   call.response.durable = wait_until_stored_();
 }

@@ -83,7 +83,7 @@ struct ObstacleChanges {
   /// The obstacles of this owner that no change adds are removed; nullopt: none. See also in_set.
   std::optional<std::string> complete_set_of;
   bool spare_attached = false;  ///< whether the complete set keeps attached obstacles
-  bool complete = false;        ///< whether the obstacles of all owners that no change adds are removed
+  bool complete = false;        ///< whether all obstacles that no change adds are removed, whoever owns them
   /// Whether each change is about one obstacle alone, so that no other obstacle of its group moves. The obstacles of a
   /// group must still move together after the last change.
   bool without_groups = false;

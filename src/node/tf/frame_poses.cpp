@@ -2,7 +2,10 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/tf/frame_poses.h"
 
+#include <utility>
+
 namespace hgrid {
+
 void FramePoses::plan(const std::string& world_frame, std::vector<std::string> frames) {
   world_frame_ = world_frame;
   frames_ = std::move(frames);

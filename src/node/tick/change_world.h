@@ -24,15 +24,15 @@ struct Tick;
 /// @throws whatever the change throws; Refusal busy if no tick makes the change in time
 using ChangeWorld = std::function<std::shared_ptr<const Tick>(const std::function<void(World&)>& change)>;
 
-/// Prepares World::applyObstacles() beside the ticks, for the present ROS time.
+/// Prepares World::applyObstacles() on the calling thread, before the tick, for the current ROS time.
 /// @param rules  the rules that World::setRules() will set together with the changes; null: the rules stay
-/// @returns null if nothing can be prepared
+/// @returns null if there is no world yet, or if the changes would be refused now
 using PrepareObstacles = std::function<std::shared_ptr<PreparedObstacles>(const ObstacleChanges& changes,
                                                                           const std::vector<PairRule>* rules)>;
 
-/// Prepares World::setRobot() or World::applyRobots() beside the ticks.
-/// @param edit  makes the same change to the robots of the newest tick; it may throw Refusal
-/// @returns null if nothing can be prepared
+/// Prepares World::setRobot() or World::applyRobots() on the calling thread, before the tick.
+/// @param edit  makes the same change to its argument, the robots of the newest tick; it may throw Refusal
+/// @returns null if there is no world yet, or if the change would be refused now
 using PrepareRobots = std::function<std::shared_ptr<PreparedRobotBodies>(
     const std::function<void(std::map<std::string, RobotEntry>&)>& edit)>;
 

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,6 +19,11 @@ class MissingSources {
   explicit MissingSources(const Params& params);
 
   void set(const SourceId& source, const std::string& sentence) { sentences_.insert_or_assign(source, sentence); }
+  /// Returns whether a source of this kind is missing.
+  bool hasKind(SourceKind kind) const {
+    return std::any_of(sentences_.begin(), sentences_.end(),
+                       [kind](const auto& one) { return one.first.kind == kind; });
+  }
   bool has(const SourceId& source) const { return sentences_.count(source) != 0; }
   void erase(const SourceId& source) noexcept { sentences_.erase(source); }
   /// Erases the sources for which `chosen` returns true. `chosen` must not throw.

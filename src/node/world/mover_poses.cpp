@@ -27,22 +27,21 @@ Time MoverPoses::update(const Moment& now, bool clock_frozen, Tick& tick) {
 
 void MoverPoses::planChains(const std::string& world_frame) {
   const bool is_planned = planned_revision_ == movers_.revision() && !frames_.stale();
-  // If movers were only added, the chains of the others are the same as before.
+  // If movers were only added, the others that are at rest stay there.
   const bool only_added = planned_revision_ != kNever && movers_.onlyAddedSince(planned_revision_) && !frames_.stale();
   if (settled_revision_ != intake_.staticRevision() || !only_added) {
     unsettleAll();
   } else {
     active_.reserve(active_.size() + movers_.size() - planned_);
     for (std::size_t i = planned_; i < movers_.size(); ++i) active_.push_back(i);
-    planned_ = movers_.size();
   }
+  planned_ = movers_.size();
   if (is_planned) return;
   std::vector<std::string> frames;
   frames.reserve(movers_.size());
   for (const Mover& mover : movers_.all()) frames.push_back(mover.frame);
   planned_revision_ = kNever;  // until the plan is complete
   frames_.plan(world_frame, std::move(frames));
-  planned_ = movers_.size();
   planned_revision_ = movers_.revision();
 }
 

@@ -61,7 +61,7 @@ class MoverPoses {
   Ledger& ledger_;
   FramePoses frames_;                        // poses of the frames of the movers, in the order of the movers
   std::uint64_t planned_revision_ = kNever;  // revision of the movers at the newest complete plan; kNever: none
-  std::size_t planned_ = 0;                  // number of movers at this plan
+  std::size_t planned_ = 0;                  // number of movers that active_ had room for at the last planChains()
   std::uint64_t settled_revision_ = 0;       // revision of /tf_static at the last unsettleAll()
   std::vector<std::size_t> active_;          // movers that are not at rest, ascending; all of them after unsettleAll()
   std::map<Time, std::uint32_t> cohorts_;    // this tick only: bodies with the same stamp share a cohort number

@@ -74,7 +74,7 @@ void Movers::beginLost(const std::set<std::string>& names) noexcept {
   }
 }
 
-void Movers::exchange(const std::function<bool(const SourceId&)>& leaves, NewMovers coming) {
+void Movers::exchange(const std::function<bool(const SourceId&)>& leaves, NewMovers&& coming) {
   std::vector<std::size_t> leaving;
   std::vector<BodyId> out;
   for (std::size_t i = 0; leaves && i < movers_.size(); ++i) {

@@ -46,7 +46,8 @@ class NewMovers {
   /// Adds a body to the mover that was added last.
   void join(Body body, const Pose& frame_from_body);
   /// Prepares the scene for these bodies, so that Movers::exchange() takes less time. Call this last, and only once.
-  /// @param newest, out, rules, @throws  see Scene::prepare(). If this throws, only the destructor may be called
+  /// @param newest  see Scene::prepare(), also for `out` and `rules`
+  /// @throws Refusal as Scene::prepare(). Then this object may only be destroyed.
   void prepare(const Scene& scene, const Snapshot& newest, const std::vector<std::string>& out,
                const std::optional<std::vector<PairRule>>& rules);
 
@@ -69,10 +70,12 @@ class Movers {
   /// Adds one body that follows its `frame`.
   /// @throws Refusal as Scene::add()
   void add(const SourceId& source, Body body);
-  /// Removes all movers of the sources for which `leaves` returns true, and adds others, here and in the scene.
+  /// Removes all movers of the sources for which `leaves` returns true, and adds other movers. Changes this object and
+  /// the scene.
   /// @param leaves  null: no mover is removed
+  /// @param coming  the movers that are added. What takes long to destroy stays in it.
   /// @throws Refusal as Scene::exchange()
-  void exchange(const std::function<bool(const SourceId&)>& leaves, NewMovers coming);
+  void exchange(const std::function<bool(const SourceId&)>& leaves, NewMovers&& coming);
 
   /// Lets obstacles keep their poses and be LOST from the next tick on. @param names  full names
   void giveUp(const std::set<std::string>& names) noexcept;
@@ -86,7 +89,7 @@ class Movers {
   const std::vector<Member>& members() const { return members_; }
   /// Returns a number that increases with each change.
   std::uint64_t revision() const { return revision_; }
-  /// Returns whether all changes after this revision only added movers behind the others.
+  /// Returns whether all changes after this revision only added movers at the end of all().
   bool onlyAddedSince(std::uint64_t revision) const { return revision >= reordered_; }
 
  private:

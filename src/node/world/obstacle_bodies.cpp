@@ -40,9 +40,9 @@ ObstacleBodies::ObstacleBodies(const Params& params, std::shared_ptr<NarrowPhase
   }
 }
 
-void ObstacleBodies::startAgain(std::shared_ptr<PlacedObstacles> none) noexcept {
+void ObstacleBodies::startAgain(SharedObstacles::Spare spare) noexcept {
   done_ = 0;
-  present_.swap(none);
+  present_.clear(std::move(spare));
   stored_.clear();
   removed_.clear();
   unsaved_.all_removed = true;
@@ -146,9 +146,11 @@ void ObstacleBodies::apply(const ObstacleChanges& changes, const Surroundings& a
                              prepared->robots.get() == &around.robots && prepared->world_frame == around.world_frame;
   ObstacleDraft made_now;
   if (!is_up_to_date) {
-    made_now = draftOf(editsOf(changes, present_.all(), around), present_.all(), params_, around.world_frame);
+    made_now = draftOf(editsOf(changes, present_.all(), around), present_.all(), !touch_.rules.empty(), params_,
+                       around.world_frame);
   }
   ObstacleDraft& draft = is_up_to_date ? prepared->draft : made_now;
+  if (is_up_to_date) beginLifetimes(draft, around.now);
   std::set<std::string> unsaved = unsavedAfter(draft.edits);
   carryOut(draft, movers);
   unsaved_.names.merge(unsaved);  // does not throw
@@ -161,12 +163,14 @@ std::shared_ptr<PreparedObstacles> ObstacleBodies::prepare(const ObstacleChanges
   auto prepared = std::make_shared<PreparedObstacles>();
   prepared->robots = newest.robots;
   prepared->world_frame = newest.world_frame;
-  const SharedObstacles::View view = present_.view();
+  SharedObstacles::View view = present_.view();
   prepared->revision = view.revision;
   const Surroundings around{params_, newest.world_frame, lookup, *newest.robots, now};
   try {
     ObstacleDraft& draft = prepared->draft;
-    draft = draftOf(editsOf(changes, *view.obstacles, around), *view.obstacles, params_, newest.world_frame);
+    draft = draftOf(editsOf(changes, *view.obstacles, around), *view.obstacles, true, params_, newest.world_frame);
+    view.obstacles.reset();
+    if (draft.leaving.empty() && draft.coming_count == 0) return prepared;  // no body changes
     const std::vector<PairRule>& present = newest.snapshot->structure().filter.rules();
     std::optional<std::vector<PairRule>> next;
     if (rules != nullptr || !hasDerived(present, Origin::attached, draft.touch)) {
@@ -186,7 +190,7 @@ void ObstacleBodies::followRobots(const RobotModels& robots, const std::string& 
     if (!obstacle.attachment || obstacle.lost) continue;
     follow(edits.set.emplace(name, obstacle).first->second, robots.all(), params_);
   }
-  carryOut(std::move(edits), world_frame, movers);
+  if (!edits.set.empty()) carryOut(std::move(edits), world_frame, movers);
   robots_revision_ = robots.revision();
 }
 
@@ -205,7 +209,7 @@ void ObstacleBodies::expire(Time now, Movers& movers) {
   }
   std::set<std::string> unsaved = unsavedAfter(edits);
   if (!params_.state_folder.empty()) unsaved.insert(lost.begin(), lost.end());
-  ObstacleDraft draft = draftOf(std::move(edits), present_.all(), params_, "");
+  ObstacleDraft draft = draftOf(std::move(edits), present_.all(), !touch_.rules.empty(), params_, "");
   carryOut(draft, movers, lost);
   // The code below does not throw.
   unsaved_.names.merge(unsaved);
@@ -221,7 +225,7 @@ void ObstacleBodies::restamp(Time now) {
 }
 
 void ObstacleBodies::carryOut(ObstacleEdits edits, const std::string& world_frame, Movers& movers) {
-  ObstacleDraft draft = draftOf(std::move(edits), present_.all(), params_, world_frame);
+  ObstacleDraft draft = draftOf(std::move(edits), present_.all(), !touch_.rules.empty(), params_, world_frame);
   carryOut(draft, movers);
 }
 

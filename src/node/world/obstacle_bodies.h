@@ -39,20 +39,20 @@ class ObstacleBodies {
   /// If this throws, the next call continues with the obstacle that failed. Lifetimes begin at `now`.
   void addAll(const std::string& world_frame, Time now, Movers& movers, MissingSources& missing);
   /// Forgets all obstacles, also the stored ones, and makes the next addAll() begin with the first configured one. The
-  /// bodies must have been removed from the movers. @param none  an empty list, not null
-  void startAgain(std::shared_ptr<PlacedObstacles> none) noexcept;
+  /// bodies must have been removed from the movers.
+  void startAgain(SharedObstacles::Spare spare) noexcept;
 
-  /// Prepares apply(), so that it takes less time. Any thread except the tick thread may call this.
+  /// Prepares apply(), so that it takes less time. Any thread may call this. It takes long if there are many bodies.
   /// @param now    current ROS time
-  /// @param scene  that of the movers
+  /// @param scene  the scene of the movers
   /// @param rules  see PrepareObstacles
   /// @returns null if there is no world yet, or if the changes would be refused now
   std::shared_ptr<PreparedObstacles> prepare(const ObstacleChanges& changes, const Tick& newest, Time now,
                                              const TransformLookup& lookup, const Scene& scene,
                                              const std::vector<PairRule>* rules) const;
   /// Applies changes, all of them or none.
-  /// @param prepared  result of prepare() for the same changes, which may be out of date; null: none. It is used up.
-  ///                  Then it holds the obstacles that left or changed, so the tick thread should not destroy it.
+  /// @param prepared  result of prepare() for the same changes, which may be out of date; null: none. If it is used, it
+  ///                  then holds the obstacles that left or changed, which takes long to destroy.
   /// @throws ChangeRefusal or Refusal as editsOf(); Refusal limit (~max_rules), or as Scene::exchange()
   void apply(const ObstacleChanges& changes, const Surroundings& around, Movers& movers,
              PreparedObstacles* prepared = nullptr);
@@ -66,7 +66,7 @@ class ObstacleBodies {
   const DerivedRules& touchRules() const { return touch_; }
   /// Returns the obstacles, by full name.
   const PlacedObstacles& all() const { return present_.all(); }
-  /// Returns the obstacles, by full name, for any thread.
+  /// Returns the obstacles, by full name. Any thread may call this. See SharedObstacles::view().
   std::shared_ptr<const PlacedObstacles> share() const { return present_.view().obstacles; }
 
   /// What changed since the last forgetUnsaved(), if ~state_folder is set.

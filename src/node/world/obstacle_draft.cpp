@@ -11,7 +11,7 @@
 namespace hgrid {
 namespace {
 
-/// Returns whether the body of an obstacle and its mover need not change, but at most what is stored of it.
+/// Returns whether the body and the mover of an obstacle stay the same. Its lifetime and its owner may change.
 bool isOnlyRenewed(const PlacedObstacle& before, const PlacedObstacle& after) {
   return !before.lost && before.restored == after.restored && before.carrier_speed == after.carrier_speed &&
          !before.attachment == !after.attachment && isAtSamePlace(before, after) &&
@@ -53,7 +53,7 @@ std::vector<PairRule> touchRulesAfter(const ObstacleEdits& edits, const PlacedOb
 
 }  // namespace
 
-ObstacleDraft draftOf(ObstacleEdits edits, const PlacedObstacles& present, const Params& params,
+ObstacleDraft draftOf(ObstacleEdits edits, const PlacedObstacles& present, bool some_attached, const Params& params,
                       const std::string& world_frame) {
   ObstacleDraft draft;
   for (const std::string& name : edits.removed) {
@@ -74,9 +74,19 @@ ObstacleDraft draftOf(ObstacleEdits edits, const PlacedObstacles& present, const
     draft.coming.add(frame, SourceId::ofObstacle(name), std::move(body), frame_from_body);
     ++draft.coming_count;
   }
-  draft.touch = touchRulesAfter(edits, present, params);
+  const bool some_attach = std::any_of(edits.set.begin(), edits.set.end(),
+                                       [](const auto& edit) { return edit.second.attachment != nullptr; });
+  if (some_attached || some_attach) draft.touch = touchRulesAfter(edits, present, params);
   draft.edits = std::move(edits);
   return draft;
+}
+
+void beginLifetimes(ObstacleDraft& draft, Time now) noexcept {
+  draft.first_end = Time::max();
+  for (auto& edit : draft.edits.set) {
+    edit.second.ends = endOf(*edit.second.what, now);
+    draft.first_end = std::min(draft.first_end, edit.second.ends);
+  }
 }
 
 }  // namespace hgrid

@@ -34,8 +34,9 @@ class ObstacleEditor {
       : present_(present), around_(around), without_groups_(without_groups) {}
 
   void edit(const ObstacleChange& change);
-  /// Removes the obstacles that a complete set lacks. @param owner  null: all. @param complete_set  names of its
-  /// obstacles
+  /// Removes the obstacles that a complete set lacks.
+  /// @param owner         whose obstacles are removed; null: those of all owners
+  /// @param complete_set  names of the obstacles that stay
   void removeOthers(const std::string* owner, const std::set<std::string>& complete_set, bool spare_attached);
   /// Checks that the obstacles of each group that changes move together.
   void checkGroups();

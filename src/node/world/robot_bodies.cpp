@@ -158,7 +158,7 @@ std::shared_ptr<PreparedRobotBodies> RobotBodies::prepare(const RobotEntries& be
   for (const Body& body : newest.structure().bodies) {
     if (body.kind == BodyKind::link && prepared->leaving.count(body.robot) != 0) out.push_back(body.name);
   }
-  prepared->movers.prepare(scene, newest, out, std::nullopt);
+  if (!out.empty() || !prepared->coming.empty()) prepared->movers.prepare(scene, newest, out, std::nullopt);
   return prepared;
 }
 
@@ -178,9 +178,11 @@ void RobotBodies::exchange(RobotEntries next, PreparedRobotBodies* prepared,
     const auto leaves = [&](const SourceId& source) {
       return (source.kind == SourceKind::robot && out.count(source.name) != 0) || (leaves_too && leaves_too(source));
     };
+    NewMovers made_now;
     const bool is_prepared = prepared != nullptr && paddings_.empty() && !leaves_too && prepared->leaving == out &&
                              prepared->coming == coming;
-    movers_.exchange(leaves, is_prepared ? std::move(prepared->movers) : moversOf(coming));
+    if (!is_prepared) made_now = moversOf(coming);
+    movers_.exchange(leaves, is_prepared ? std::move(prepared->movers) : std::move(made_now));
   }
   // The code below does not throw.
   models_.swap(models);

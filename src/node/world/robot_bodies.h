@@ -21,11 +21,11 @@ namespace hgrid {
 /// Models of robots.
 using RobotList = std::vector<std::shared_ptr<const LoadedRobot>>;
 
-/// Bodies of robots that come into the world, made beside the ticks.
+/// The bodies of a change of robots, made before the tick that applies the change.
 struct PreparedRobotBodies {
   std::set<std::string> leaving;  ///< names of the robots whose bodies leave
   RobotList coming;               ///< the robots whose bodies come
-  NewMovers movers;               ///< of `coming`, with a scene that is prepared for the change
+  NewMovers movers;               ///< of `coming`; they hold the prepared bodies
 };
 
 /// The robots of the world: their models, and their links as bodies of the scene.
@@ -45,14 +45,17 @@ class RobotBodies {
   /// Replaces the model of the robot of the same name, or adds a robot. An absent robot stays absent.
   /// @throws Refusal limit (~max_bodies), or as Scene::exchange()
   /// @param robot     not null
-  /// @param prepared  see prepare(); null: none
+  /// @param prepared  see prepare(); null: none. Not used if links have paddings, or if it was made for another change.
   void set(std::shared_ptr<const LoadedRobot> robot, PreparedRobotBodies* prepared = nullptr);
   /// Applies changes of robots, all of them or none. @param world_frame  empty: not known yet
   /// @throws ChangeRefusal as edit() and checkSharesRoot(), or limit (~max_bodies); Refusal as Scene::exchange()
-  /// @param prepared  see prepare(); null: none
+  /// @param prepared  as above
   void apply(const RobotChanges& changes, const std::string& world_frame, PreparedRobotBodies* prepared = nullptr);
   /// Prepares the bodies of robots for set() or apply(), so that they take less time. Any thread may call this.
-  /// @param before  the robots of the tick with the snapshot. @param after  the robots after the change
+  /// @param before  the robots of the tick with the snapshot
+  /// @param after   the robots after the change
+  /// @param newest  snapshot of the newest tick
+  /// @param scene   that of the movers
   /// @throws Refusal as Scene::prepare()
   static std::shared_ptr<PreparedRobotBodies> prepare(const RobotEntries& before, const RobotEntries& after,
                                                       const Snapshot& newest, const Scene& scene);

@@ -18,9 +18,10 @@ std::vector<PairRule> without(std::vector<PairRule> rules, Origin origin) {
   return rules;
 }
 
-/// Marks the rules of this origin that `derived` lacks. @returns whether `derived` has no other rules, in this order
-bool marksAll(const std::vector<PairRule>& rules, Origin origin, const std::vector<PairRule>& derived,
-              std::vector<bool>& gone) {
+/// Sets `gone` for each rule of this origin that `derived` lacks.
+/// @returns whether `rules` has all rules of `derived`, in this order
+bool markMissing(const std::vector<PairRule>& rules, Origin origin, const std::vector<PairRule>& derived,
+                 std::vector<bool>& gone) {
   auto next = derived.begin();
   for (std::size_t i = 0; i < rules.size(); ++i) {
     if (rules[i].origin != origin) continue;
@@ -49,7 +50,7 @@ std::vector<PairRule> withTouchRules(std::vector<PairRule> rules, const std::vec
   return rules;
 }
 
-/// Passes new rules to the scene. It takes much less time if some rules end, but none is new.
+/// Passes new rules to the scene. If no derived rule is new, only removes those that ended, which takes much less time.
 void RulesInForce::update(const DerivedRules& touch, const DerivedRules& moveit, Scene& scene) const {
   const std::vector<PairRule>& given = next_ ? next_->filter.rules() : scene.rules();
   if (hasDerived(given, Origin::attached, touch.rules) && hasDerived(given, Origin::moveit, moveit.rules)) {
@@ -57,8 +58,8 @@ void RulesInForce::update(const DerivedRules& touch, const DerivedRules& moveit,
     return;
   }
   std::vector<bool> gone(given.size());
-  if (!next_ && marksAll(given, Origin::attached, touch.rules, gone) &&
-      marksAll(given, Origin::moveit, moveit.rules, gone)) {
+  if (!next_ && markMissing(given, Origin::attached, touch.rules, gone) &&
+      markMissing(given, Origin::moveit, moveit.rules, gone)) {
     return scene.removeRules(gone);
   }
   std::vector<PairRule> rules = without(withTouchRules(given, touch.rules), Origin::moveit);

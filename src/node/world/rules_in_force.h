@@ -19,10 +19,11 @@ struct DerivedRules {
   std::uint64_t revision = 0;  ///< grows with each change of the rules
 };
 
-/// Returns whether the rules of this origin in `rules` are those of `derived`, one after the other.
+/// Returns whether the rules of this origin in `rules` are those of `derived`, in this order and without other rules
+/// between them.
 bool hasDerived(const std::vector<PairRule>& rules, Origin origin, const std::vector<PairRule>& derived);
 
-/// Returns `rules` with its rules for attached obstacles replaced. See RulesInForce for the order.
+/// Returns `rules` with its rules for attached obstacles replaced by `touch`. See RulesInForce for the order.
 std::vector<PairRule> withTouchRules(std::vector<PairRule> rules, const std::vector<PairRule>& touch);
 
 /// Keeps the scene's rules for allowed pairs up to date: passes on new rules and removes expired ones. The rules of

@@ -177,7 +177,7 @@ void World::needFrames(const Moment& now) {
   if (needed_revision_ == movers_.revision()) return;
   std::vector<std::string> frames{world_frame_};
   for (const Mover& mover : movers_.all()) {
-    if (mover.frame != frames.back()) frames.push_back(mover.frame);  // most obstacles have the same frame
+    if (mover.frame != frames.back()) frames.push_back(mover.frame);  // successive obstacles often have the same frame
   }
   for (const auto& data : data_frames_) frames.insert(frames.end(), data.second.begin(), data.second.end());
   transforms_.need(frames, now);
@@ -205,14 +205,14 @@ void World::applyObstacles(const ObstacleChanges& changes, Time now, PreparedObs
                                                    : "there is no time yet, because nothing is published on /clock"));
   }
   obstacles_.addAll(world_frame_, now, movers_, missing_);  // so that a change can be about a configured obstacle
+  std::set<SourceId> named;
+  if (missing_.hasKind(SourceKind::obstacle)) {
+    for (const ObstacleChange& change : changes.changes) named.insert(SourceId::ofObstacle(change.name));
+  }
   obstacles_.apply(changes, {params_, world_frame_, transforms_.lookup(), robots_.models().all(), now}, movers_,
                    prepared);
   // The code below does not throw. A configured obstacle that was refused is no longer missing if it was changed.
-  missing_.eraseIf([&](const SourceId& source) {
-    return source.kind == SourceKind::obstacle && source.group.empty() &&
-           std::any_of(changes.changes.begin(), changes.changes.end(),
-                       [&](const ObstacleChange& change) { return change.name == source.name; });
-  });
+  missing_.eraseIf([&](const SourceId& source) { return named.count(source) != 0; });
 }
 
 void World::setRules(PreparedRules rules) { rules_.set(std::move(rules)); }
@@ -225,10 +225,10 @@ void World::setSettings(std::shared_ptr<const Settings> settings) {
 
 void World::reset() {
   const auto is_obstacle = [](const SourceId& source) { return source.kind == SourceKind::obstacle; };
-  auto none = std::make_shared<PlacedObstacles>();
+  SharedObstacles::Spare spare;
   robots_.reset(is_obstacle);
   // The code below does not throw.
-  obstacles_.startAgain(std::move(none));
+  obstacles_.startAgain(std::move(spare));
   robots_.setPaddings({});
   setMatrix({});
   missing_.eraseIf(is_obstacle);

@@ -39,8 +39,8 @@ namespace hgrid {
 /// Makes the ticks: each tick updates the Scene with the transforms and the sources, then takes a snapshot.
 ///
 /// The members of this class do the work. The class itself only decides in which order a change or a tick uses them.
-/// Only the tick thread may call its functions, except prepareRobots() and prepareObstacles(). Any thread may read a
-/// Tick.
+/// Only the tick thread may call its functions, except prepareRobots(), prepareObstacles() and the constant
+/// transforms(). Any thread may read a Tick.
 ///
 /// A call that throws, even because memory ran out, changes nothing. Only tick() may leave its work half done if memory
 /// runs out; the next tick completes it.
@@ -66,8 +66,8 @@ class World {
   /// Applies changes of robots, all of them or none. See RobotBodies::apply().
   /// @param prepared  result of prepareRobots() for the same changes; null: none
   void applyRobots(const RobotChanges& changes, PreparedRobotBodies* prepared = nullptr);
-  /// Prepares setRobot() or applyRobots(), so that the tick with the change takes less time. Any thread except the tick
-  /// thread may call this. See PrepareRobots. @param newest  null: there is no tick yet
+  /// Prepares setRobot() or applyRobots(), so that the tick with the change takes less time. Any thread may call this.
+  /// It takes long if there are many bodies. See PrepareRobots. @param newest  null: there is no tick yet
   std::shared_ptr<PreparedRobotBodies> prepareRobots(const std::function<void(RobotEntries&)>& edit,
                                                      const std::shared_ptr<const Tick>& newest) const;
   /// Returns the robots, also those that are absent or not loaded.
@@ -102,11 +102,12 @@ class World {
   void setSettings(std::shared_ptr<const Settings> settings);
   /// Applies changes of obstacles, all of them or none.
   /// @param now  current ROS time
-  /// @param prepared  result of prepareObstacles() for these changes; it is used up; null: none
+  /// @param prepared  result of prepareObstacles() for these changes; null: none
   /// @throws Refusal not_ready (no world frame or no time yet), or as ObstacleBodies::apply()
   void applyObstacles(const ObstacleChanges& changes, Time now, PreparedObstacles* prepared = nullptr);
-  /// Prepares applyObstacles(), so that the tick with the changes takes less time. Any thread except the tick thread
-  /// may call this. See PrepareObstacles. @param newest  null: there is no tick yet
+  /// Prepares applyObstacles(), so that the tick with the changes takes less time. Any thread may call this. It takes
+  /// long if there are many bodies. Poses at present are those at `now`. See PrepareObstacles.
+  /// @param newest  null: there is no tick yet
   std::shared_ptr<PreparedObstacles> prepareObstacles(const ObstacleChanges& changes,
                                                       const std::shared_ptr<const Tick>& newest, Time now,
                                                       const std::vector<PairRule>* rules = nullptr) const;

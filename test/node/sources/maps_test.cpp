@@ -310,7 +310,7 @@ TEST_F(Maps, OneThousandReplacementsLeaveNothingBehind) {
   const Octomap read = readOctomapData({"OcTree", true, 0.1}, nodes, "the field");
   folder_.write("field.bt", "# Octomap OcTree binary file\nid OcTree\nsize " + std::to_string(read.nodes) +
                                 "\nres 0.1\ndata\n" + nodes);
-  // One connection for all requests: among thousands of calls with a connection each, roscpp sometimes loses one.
+  // All requests use one connection. If thousands of calls open one each, roscpp sometimes loses a call.
   ros::ServiceClient loader = ros::NodeHandle().serviceClient<msg::LoadOctomap>(node_->named("load_octomap"), true);
   msg::LoadOctomap call;
   call.request.map = "room";

@@ -121,7 +121,7 @@ class Fleet : public ::testing::Test {
         },
         tick_);
   }
-  /// Prepares the changes if those before were not prepared.
+  /// Applies the changes. Every second call prepares them before. @returns code and index of a refusal
   std::optional<Refused> refused(const RobotChanges& changes) {
     try {
       std::shared_ptr<PreparedRobotBodies> prepared;

@@ -106,7 +106,7 @@ class Model {
 TEST_F(Obstacles, AreWhatASimpleModelSays) {
   Random random(1);
   Model model;
-  int applied = 0, refusals = 0, outdated = 0;
+  int applied = 0, refusals = 0, interrupted = 0;
   const auto randomChanges = [&] {
     std::vector<msg::Obstacle> changes;
     for (std::uint32_t count = random.below(4); count > 0; --count) {
@@ -140,12 +140,12 @@ TEST_F(Obstacles, AreWhatASimpleModelSays) {
     const std::vector<msg::Obstacle> changes = randomChanges();
     const std::string complete = random.below(6) == 0 ? "one" : "";
     std::optional<std::pair<Code, std::size_t>> expected;
-    between_ = [&] {  // sometimes another request comes between, so that what was prepared is out of date
+    between_ = [&] {  // sometimes applies another request before, so that what was prepared is out of date
       if (random.below(4) == 0) {
         const std::vector<msg::Obstacle> others = randomChanges();
         if (!model.apply(others, "", time_, cart(time_))) {
           world_.applyObstacles(changesOf(others, ""), momentAt(time_).ros);
-          ++outdated;
+          ++interrupted;
         }
       }
       expected = model.apply(changes, complete, time_, cart(time_));
@@ -165,7 +165,7 @@ TEST_F(Obstacles, AreWhatASimpleModelSays) {
   }
   EXPECT_GT(applied, 500);
   EXPECT_GT(refusals, 500);
-  EXPECT_GT(outdated, 500);
+  EXPECT_GT(interrupted, 500);
 }
 
 }  // namespace

@@ -163,7 +163,7 @@ class Obstacles : public ::testing::Test {
     request.complete_set = !complete_set_of.empty();
     return obstacleChangesOf(request, "/caller", params(), *phase_, &readFile);
   }
-  /// Applies the changes. Prepares them if the changes before were not prepared.
+  /// Applies the changes. Every second call prepares them before.
   void apply(const std::vector<msg::Obstacle>& changes, const std::string& complete_set_of = "") {
     const ObstacleChanges all = changesOf(changes, complete_set_of);
     std::shared_ptr<PreparedObstacles> prepared;
@@ -221,7 +221,7 @@ class Obstacles : public ::testing::Test {
   double time_ = 0.0;
   std::shared_ptr<const Tick> tick_;
   bool prepares_ = false;          ///< whether the last apply() prepared its changes
-  std::function<void()> between_;  ///< called once, after the next apply() has prepared its changes
+  std::function<void()> between_;  ///< the next apply() calls this once, before it applies its changes
 };
 
 }  // namespace test
