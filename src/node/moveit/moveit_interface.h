@@ -31,16 +31,17 @@ class MoveItInterface {
         commons_(commons),
         octomap_(maps, jobs, commons.ledger),
         jobs_(jobs),
+        prepare_obstacles_(prepare_obstacles),
         newest_(std::move(newest)),
         is_ending_(std::move(is_ending)) {
     if (!commons.settings.params.moveit_services) return;
-    services_.emplace(node_, commons, octomap_, gaps_, prepare_obstacles, change_world);
+    services_.emplace(node_, commons, octomap_, gaps_, newest_, prepare_obstacles, change_world);
     validity_.emplace(query_node, commons, newest_, transforms);
   }
 
   void startTopics() {
     if (!commons_.settings.params.moveit_topics) return;
-    topics_.emplace(node_, commons_, octomap_, gaps_, newest_, jobs_, is_ending_);
+    topics_.emplace(node_, commons_, octomap_, gaps_, newest_, prepare_obstacles_, jobs_, is_ending_);
   }
   void stopTopics() { topics_.reset(); }
 
@@ -50,6 +51,7 @@ class MoveItInterface {
   SceneOctomap octomap_;
   SceneGaps gaps_;  // only jobs use it
   TickJobs& jobs_;
+  PrepareObstacles prepare_obstacles_;
   NewestTick newest_;
   std::function<bool()> is_ending_;
   std::optional<SceneTopics> topics_;

@@ -8,6 +8,7 @@
 #include "node/diagnostics/ledger.h"
 #include "node/moveit/scene_octomap.h"
 #include "node/wire/checked.h"
+#include "node/world/rules_in_force.h"
 #include "node/world/world.h"
 
 namespace hgrid {
@@ -108,6 +109,15 @@ void ReadScene::note(const moveit::PlanningScene<release>& scene, const SceneRea
   hides_octomap_ = false;
   most_paddings_ = static_cast<std::size_t>(reader.params().max_links);
   extras_ = reader.extrasOf(scene);
+}
+
+std::shared_ptr<PreparedObstacles> ReadScene::prepare(const PrepareObstacles& prepare_obstacles,
+                                                      const Tick* newest) const {
+  if (isDone() || newest == nullptr || !newest->snapshot) return nullptr;
+  if (!extras_ || !extras_->matrix) return prepare_obstacles(changes_, nullptr);
+  const std::vector<PairRule> rules =
+      withMoveItRules(newest->snapshot->structure().filter.rules(), rulesOf(*extras_->matrix, *newest->robots));
+  return prepare_obstacles(changes_, &rules);
 }
 
 void ReadScene::applyTo(World& world, Time now, PreparedObstacles* prepared) {

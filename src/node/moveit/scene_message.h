@@ -11,10 +11,9 @@
 #include "node/moveit/scene_gaps.h"
 #include "node/moveit/scene_queue.h"
 #include "node/moveit/scene_types.h"
+#include "node/tick/change_world.h"
 
 namespace hgrid {
-
-class World;
 
 /// A message of MoveIt that was read, and what became of it.
 class ReadScene {
@@ -28,8 +27,10 @@ class ReadScene {
   /// @param is_scene  whether one of them may have been a planning scene
   ReadScene(const Refusal& dropped, bool is_scene);
 
+  /// Prepares applyTo() on the calling thread. See PrepareObstacles. @param newest  null: there is no tick yet
+  std::shared_ptr<PreparedObstacles> prepare(const PrepareObstacles& prepare_obstacles, const Tick* newest) const;
   /// Applies the message to the world. If this fails, refused() says why. Only the tick thread may call this.
-  /// @param prepared  see World::applyObstacles()
+  /// @param prepared  result of prepare(); null: none
   void applyTo(World& world, Time now, PreparedObstacles* prepared = nullptr);
   /// Notes what the world lacks after applyTo(). Only the tick thread may call this.
   void noteIn(SceneGaps& gaps) const;

@@ -20,11 +20,12 @@
 namespace hgrid {
 
 SceneServices::SceneServices(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps,
-                             PrepareObstacles prepare, ChangeWorld change_world)
+                             NewestTick newest, PrepareObstacles prepare, ChangeWorld change_world)
     : commons_(commons),
       reader_(commons.settings.params, *commons.narrow_phase),
       octomap_(octomap),
       gaps_(gaps),
+      newest_(std::move(newest)),
       prepare_(std::move(prepare)),
       change_world_(std::move(change_world)) {
   serve<moveit::GetPlanningScene>(node, "get_planning_scene", "moveit.get_failed", &SceneServices::get);
@@ -65,7 +66,7 @@ void SceneServices::apply(const moveit::ApplyPlanningScene::Request& request,
     if (!request.scene.octomap.data.empty()) {
       map = std::make_shared<const LoadedMap>(octomap_.read(request.scene.octomap));
     }
-    const std::shared_ptr<PreparedObstacles> prepared = prepare_(read->changes(), nullptr);
+    const std::shared_ptr<PreparedObstacles> prepared = read->prepare(prepare_, newest_().get());
     change_world_([read, map, prepared, &gaps = gaps_](World& world) {
       read->applyTo(world, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())), prepared.get());
       if (!read->applied()) throw *read->refused();

@@ -13,6 +13,7 @@
 #include "node/moveit/scene_octomap.h"
 #include "node/moveit/scene_types.h"
 #include "node/tick/change_world.h"
+#include "node/tick/newest_tick.h"
 
 namespace hgrid {
 
@@ -21,7 +22,7 @@ class SceneServices {
  public:
   /// @param node  the names of the services are resolved in its namespace; the thread of its callback queue serves them
   /// `commons`, `octomap` and `gaps` must outlive this object.
-  SceneServices(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps,
+  SceneServices(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps, NewestTick newest,
                 PrepareObstacles prepare, ChangeWorld change_world);
 
  private:
@@ -35,6 +36,7 @@ class SceneServices {
   SceneReader reader_;
   SceneOctomap& octomap_;
   SceneGaps& gaps_;  // only jobs use it
+  NewestTick newest_;
   PrepareObstacles prepare_;
   ChangeWorld change_world_;
   std::vector<ros::ServiceServer> servers_;

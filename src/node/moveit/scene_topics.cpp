@@ -35,9 +35,10 @@ std::vector<std::string> namesAddedBy(const std::vector<std::shared_ptr<ReadScen
 }  // namespace
 
 SceneTopics::SceneTopics(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps,
-                         NewestTick newest, TickJobs& jobs, std::function<bool()> is_ending)
+                         NewestTick newest, PrepareObstacles prepare, TickJobs& jobs, std::function<bool()> is_ending)
     : commons_(commons),
       newest_(std::move(newest)),
+      prepare_(std::move(prepare)),
       jobs_(jobs),
       is_ending_(std::move(is_ending)),
       reader_(commons.settings.params, *commons.narrow_phase),
@@ -147,10 +148,11 @@ void SceneTopics::apply(const SceneBatch& batch) {
   while (settled < batch.size() && !is_ending_()) {
     const auto done = std::make_shared<std::size_t>(settled);  // shared: run() may end before the job does
     const auto matches = all_matches ? std::make_shared<NameMatches>(*all_matches) : nullptr;
+    const std::shared_ptr<PreparedObstacles> first = batch[settled]->prepare(prepare_, newest_().get());
     try {
-      jobs_.run([shared, done, matches, &gaps = gaps_](World& world) {
+      jobs_.run([shared, done, matches, first, &gaps = gaps_](World& world) {
         world.prepareNames(matches);
-        applySome(*shared, *done, gaps, world);
+        applySome(*shared, *done, first.get(), gaps, world);
       });
     } catch (const Refusal& refusal) {
       if (refusal.code() != Code::busy) throw;  // busy: no tick began in time, so nothing was applied
@@ -162,13 +164,15 @@ void SceneTopics::apply(const SceneBatch& batch) {
 }
 
 /// Applies messages for a few milliseconds, and tells the world what it lacks. The tick thread calls this.
-/// @param done  number of messages that were applied or refused
-void SceneTopics::applySome(const SceneBatch& batch, std::size_t& done, SceneGaps& gaps, World& world) {
+/// @param done   number of messages that were applied or refused
+/// @param first  what was prepared for the next message; null: nothing
+void SceneTopics::applySome(const SceneBatch& batch, std::size_t& done, PreparedObstacles* first, SceneGaps& gaps,
+                            World& world) {
   const auto begin = std::chrono::steady_clock::now();
   const Time now(static_cast<std::int64_t>(ros::Time::now().toNSec()));
   while (done < batch.size() && std::chrono::steady_clock::now() - begin < kTickShare) {
     ReadScene& read = *batch[done];
-    read.applyTo(world, now);
+    read.applyTo(world, now, std::exchange(first, nullptr));
     if (!read.isDone()) break;  // the world is not ready, so this message and the later ones wait
     read.noteIn(gaps);
     ++done;

@@ -26,9 +26,10 @@ namespace hgrid {
 
 /// Subscribes to the topics on which MoveIt announces its objects, and applies the messages to the world.
 ///
-/// A separate thread reads the messages and prepares the shapes. Then a tick applies them in the order in which they
-/// were received, each message as a whole. What a tick cannot apply within a few milliseconds, the next tick applies.
-/// While an object is missing because a message was refused or dropped, the world is not complete.
+/// A separate thread reads the messages and prepares the shapes, and the structure with the first message. Then a tick
+/// applies them in the order in which they were received, each message as a whole. What a tick cannot apply within a
+/// few milliseconds, the next tick applies. While an object is missing because a message was refused or dropped, the
+/// world is not complete.
 ///
 /// Counters: "moveit.received" is the sum of "moveit.applied", "moveit.refused.<CODE>", "moveit.dropped.<CODE>" and of
 /// the messages that still wait.
@@ -38,7 +39,7 @@ class SceneTopics {
   /// @param is_ending  returns whether the node is shutting down
   /// `commons`, `octomap`, `gaps` and `jobs` must outlive this object.
   SceneTopics(ros::NodeHandle node, Commons& commons, SceneOctomap& octomap, SceneGaps& gaps, NewestTick newest,
-              TickJobs& jobs, std::function<bool()> is_ending);
+              PrepareObstacles prepare, TickJobs& jobs, std::function<bool()> is_ending);
   ~SceneTopics();
   SceneTopics(const SceneTopics&) = delete;
   SceneTopics& operator=(const SceneTopics&) = delete;
@@ -51,11 +52,13 @@ class SceneTopics {
   void run();
   void takeAll(SceneQueue::Popped& popped);
   void apply(const SceneBatch& batch);
-  static void applySome(const SceneBatch& batch, std::size_t& done, SceneGaps& gaps, World& world);
+  static void applySome(const SceneBatch& batch, std::size_t& done, PreparedObstacles* first, SceneGaps& gaps,
+                        World& world);
   void settle(const ReadScene& read);
 
   Commons& commons_;
   const NewestTick newest_;
+  const PrepareObstacles prepare_;
   TickJobs& jobs_;
   const std::function<bool()> is_ending_;
   SceneReader reader_;

@@ -24,6 +24,19 @@ std::optional<std::string> bodyOf(const std::string& name, const RobotEntries& r
 
 }  // namespace
 
+std::vector<PairRule> rulesOf(const std::vector<MatrixRule>& matrix, const RobotEntries& robots) {
+  std::vector<PairRule> rules;
+  for (const MatrixRule& one : matrix) {
+    const std::optional<std::string> first = bodyOf(one.first, robots);
+    const std::optional<std::string> second = one.second.empty() ? "*" : bodyOf(one.second, robots);
+    if (!first || !second) continue;
+    PairRule rule{*first, *second, "MoveIt's allowed collision matrix", one.allowed};
+    rule.origin = Origin::moveit;
+    rules.push_back(std::move(rule));
+  }
+  return rules;
+}
+
 void MatrixRules::set(std::vector<MatrixRule> matrix) noexcept {
   is_new_ = is_new_ || !(matrix == matrix_);
   matrix_.swap(matrix);
@@ -31,15 +44,7 @@ void MatrixRules::set(std::vector<MatrixRule> matrix) noexcept {
 
 const DerivedRules& MatrixRules::rules(const RobotModels& robots) {
   if (!is_new_ && (matrix_.empty() || robots_revision_ == robots.revision())) return rules_;
-  std::vector<PairRule> rules;
-  for (const MatrixRule& one : matrix_) {
-    const std::optional<std::string> first = bodyOf(one.first, robots.all());
-    const std::optional<std::string> second = one.second.empty() ? "*" : bodyOf(one.second, robots.all());
-    if (!first || !second) continue;
-    PairRule rule{*first, *second, "MoveIt's allowed collision matrix", one.allowed};
-    rule.origin = Origin::moveit;
-    rules.push_back(std::move(rule));
-  }
+  std::vector<PairRule> rules = rulesOf(matrix_, robots.all());
   // The code below does not throw.
   rules_.rules.swap(rules);
   ++rules_.revision;

@@ -23,6 +23,10 @@ inline bool operator==(const MatrixRule& a, const MatrixRule& b) {
   return a.first == b.first && a.second == b.second && a.allowed == b.allowed;
 }
 
+/// Returns the rules for the bodies. A name that is a link of one robot means this link. A name that several robots
+/// have makes no rule. Any other name means an object.
+std::vector<PairRule> rulesOf(const std::vector<MatrixRule>& matrix, const RobotEntries& robots);
+
 /// Keeps the newest allowed collision matrix of MoveIt, and makes the rules for pairs of bodies from it.
 class MatrixRules {
  public:
@@ -30,8 +34,7 @@ class MatrixRules {
   void set(std::vector<MatrixRule> matrix) noexcept;
   const std::vector<MatrixRule>& matrix() const { return matrix_; }
 
-  /// Returns the rules for the bodies. A name that is a link of one robot means this link. A name that several robots
-  /// have makes no rule. Any other name means an object. If this throws, nothing changes.
+  /// Returns the rules of the matrix, see rulesOf(). If this throws, nothing changes.
   const DerivedRules& rules(const RobotModels& robots);
 
  private:

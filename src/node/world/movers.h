@@ -51,6 +51,9 @@ class NewMovers {
   void prepare(const Scene& scene, const Snapshot& newest, const std::vector<std::string>& out,
                const std::optional<std::vector<PairRule>>& rules);
 
+  /// Returns whether prepare() was called.
+  bool isPrepared() const { return prepared_.has_value(); }
+
  private:
   friend class Movers;
   std::vector<Mover> movers_;               // `first` and `last` are indices into members_

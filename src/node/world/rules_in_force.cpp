@@ -50,6 +50,12 @@ std::vector<PairRule> withTouchRules(std::vector<PairRule> rules, const std::vec
   return rules;
 }
 
+std::vector<PairRule> withMoveItRules(std::vector<PairRule> rules, const std::vector<PairRule>& moveit) {
+  rules = without(std::move(rules), Origin::moveit);
+  rules.insert(rules.begin(), moveit.begin(), moveit.end());
+  return rules;
+}
+
 /// Passes new rules to the scene. If no derived rule is new, only removes those that ended, which takes much less time.
 void RulesInForce::update(const DerivedRules& touch, const DerivedRules& moveit, Scene& scene) const {
   const std::vector<PairRule>& given = next_ ? next_->filter.rules() : scene.rules();
@@ -62,9 +68,7 @@ void RulesInForce::update(const DerivedRules& touch, const DerivedRules& moveit,
       markMissing(given, Origin::moveit, moveit.rules, gone)) {
     return scene.removeRules(gone);
   }
-  std::vector<PairRule> rules = without(withTouchRules(given, touch.rules), Origin::moveit);
-  rules.insert(rules.begin(), moveit.rules.begin(), moveit.rules.end());
-  scene.setRules(std::move(rules));
+  scene.setRules(withMoveItRules(withTouchRules(given, touch.rules), moveit.rules));
 }
 
 void RulesInForce::apply(const Moment& now, const DerivedRules& touch, const DerivedRules& moveit, Scene& scene) {

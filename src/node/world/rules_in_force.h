@@ -26,6 +26,9 @@ bool hasDerived(const std::vector<PairRule>& rules, Origin origin, const std::ve
 /// Returns `rules` with its rules for attached obstacles replaced by `touch`. See RulesInForce for the order.
 std::vector<PairRule> withTouchRules(std::vector<PairRule> rules, const std::vector<PairRule>& touch);
 
+/// Returns `rules` with its rules of MoveIt replaced by `moveit`. See RulesInForce for the order.
+std::vector<PairRule> withMoveItRules(std::vector<PairRule> rules, const std::vector<PairRule>& moveit);
+
 /// Keeps the scene's rules for allowed pairs up to date: passes on new rules and removes expired ones. The rules of
 /// MoveIt come first, so that every other rule takes precedence over an equally exact one of them. The rules of
 /// attached obstacles come after the configured rules and before those of ~set_allowed.

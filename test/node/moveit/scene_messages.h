@@ -81,7 +81,11 @@ class SceneWorld : public Obstacles {
 
   template <class Message>
   void take(const Message& message) {
-    world_.applyObstacles(reader_.changesOf(message), momentAt(time_).ros);
+    const ObstacleChanges changes = reader_.changesOf(message);
+    prepares_ = !prepares_;
+    std::shared_ptr<PreparedObstacles> prepared;
+    if (prepares_) prepared = world_.prepareObstacles(changes, tick_, momentAt(time_).ros);
+    world_.applyObstacles(changes, momentAt(time_).ros, prepared.get());
   }
   /// Returns the code with which a message is refused; nullopt if it is applied.
   template <class Message>

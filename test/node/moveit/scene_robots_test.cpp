@@ -35,7 +35,12 @@ class SceneRobots : public Obstacles {
   /// @returns why the scene is refused; Code::ok if it is applied
   Code take(const NoeticScene& scene) {
     ReadScene read(scene, reader_);
-    read.applyTo(world_, momentAt(time_).ros);
+    const PrepareObstacles prepare = [this](const ObstacleChanges& changes, const std::vector<PairRule>* rules) {
+      return world_.prepareObstacles(changes, tick_, momentAt(time_).ros, rules);
+    };
+    prepares_ = !prepares_;
+    const auto prepared = prepares_ ? read.prepare(prepare, tick_.get()) : nullptr;
+    read.applyTo(world_, momentAt(time_).ros, prepared.get());
     return read.applied() ? Code::ok : read.refused()->code();
   }
   static NoeticScene diff() {
