@@ -276,9 +276,11 @@ void Scene::setCells(BodyId id, std::shared_ptr<const MapCells> cells) {
 }
 
 void Scene::setRules(std::vector<PairRule> rules) {
-  state_->options.allowed_pairs = std::move(rules);
-  state_->prepared.reset();
-  state_->rules_changed = state_->options.allowed_pairs != state_->structure->filter.rules();
+  State& s = *state_;
+  s.options.allowed_pairs = std::move(rules);
+  s.prepared.reset();
+  // Before the first commit, the structure has no filter yet.
+  s.rules_changed = s.structure->revision == 0 || s.options.allowed_pairs != s.structure->filter.rules();
 }
 
 void Scene::setPreparedRules(PreparedRules prepared) {

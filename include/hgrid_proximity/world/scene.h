@@ -119,13 +119,11 @@ class Scene {
   std::vector<BodyId> exchange(const std::vector<BodyId>& out, std::vector<Body> in);
   /// Prepares exchangePrepared(): makes the structure that the scene will then have. This takes long if there are many
   /// bodies. Any thread may call it, also while another thread uses the scene.
-  /// @param newest  the newest snapshot of this scene. exchangePrepared() uses the structure only if the scene still
-  /// has
-  ///                that of this snapshot.
+  /// @param newest  the newest snapshot of this scene. The new structure is used only if the scene still has the
+  ///                structure of this snapshot in exchangePrepared().
   /// @param out     names of the bodies to be removed
   /// @param rules   the rules that setRules() will set after exchangePrepared(); nullopt: those of the snapshot stay.
-  /// If
-  ///                the rules are others at the next commit, it makes the pair filter again.
+  ///                If other rules are set, the next commit() makes the pair filter again.
   /// @throws Refusal as exchange(), for the bodies of the snapshot
   PreparedBodies prepare(const Snapshot& newest, const std::vector<std::string>& out, std::vector<Body> in,
                          const std::optional<std::vector<PairRule>>& rules = std::nullopt) const;
