@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "hgrid_proximity/refusal.h"
 #include "test/support/rules.h"
 #include "test/support/scenes.h"

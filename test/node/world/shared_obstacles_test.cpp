@@ -59,8 +59,11 @@ TEST(SharedObstacles, MayBeViewedWhileTheyChange) {
     }
   });
   for (int i = 0; i < 2000 || views < 100; ++i) {
-    const SharedObstacles::Access access(shared);
-    for (auto& obstacle : access.all()) obstacle.second.owner = std::to_string(i);
+    {
+      const SharedObstacles::Access access(shared);
+      for (auto& obstacle : access.all()) obstacle.second.owner = std::to_string(i);
+    }
+    std::this_thread::yield();  // lets the reader have the mutex
   }
   end = true;
   reader.join();
