@@ -55,17 +55,11 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       path_topics_(node, commons_, guard_, [this] { return tick_loop_.newest(); }),
       services_(
           query_threads_.privateNode(), batch_threads_.privateNode(), admin_thread_.privateNode(), commons_,
-          [this] { return tick_loop_.newest(); },
-          [this](const ObstacleChanges& changes, const std::vector<PairRule>* rules) {
-            return prepareObstacles(changes, rules);
-          },
+          [this] { return tick_loop_.newest(); }, prepareObstacles(),
           [this](const TickJobs::Job& job) { return changeWorld(job); }, world_.transforms().lookup(), history_,
           loading_, state_, guard_, stopwatch_, sketch_),
       moveit_(
-          admin_thread_.node(), query_threads_.node(), commons_, loading_.mapSource(), jobs_,
-          [this](const ObstacleChanges& changes, const std::vector<PairRule>* rules) {
-            return prepareObstacles(changes, rules);
-          },
+          admin_thread_.node(), query_threads_.node(), commons_, loading_.mapSource(), jobs_, prepareObstacles(),
           [this](const TickJobs::Job& job) { return changeWorld(job); }, [this] { return tick_loop_.newest(); },
           world_.transforms().lookup(), [this] { return isEnding(); }),
       trackers_(
@@ -105,11 +99,11 @@ void ProximityNode::stop() {
   admin_thread_.stop();
 }
 
-/// Implements PrepareObstacles.
-std::shared_ptr<PreparedObstacles> ProximityNode::prepareObstacles(const ObstacleChanges& changes,
-                                                                   const std::vector<PairRule>* rules) const {
-  const Time now(static_cast<std::int64_t>(ros::Time::now().toNSec()));
-  return world_.prepareObstacles(changes, tick_loop_.newest(), now, rules);
+PrepareObstacles ProximityNode::prepareObstacles() const {
+  return [this](const ObstacleChanges& changes, const std::vector<PairRule>* rules) {
+    const Time now(static_cast<std::int64_t>(ros::Time::now().toNSec()));
+    return world_.prepareObstacles(changes, tick_loop_.newest(), now, rules);
+  };
 }
 
 /// Implements ChangeWorld. A client finds the change in ~bodies and ~rules when the answer arrives.

@@ -52,8 +52,7 @@ class ProximityNode {
   void beginTicks();
   std::vector<TickLoop::Step> tickSteps();
   std::vector<Chore> chores();
-  std::shared_ptr<PreparedObstacles> prepareObstacles(const ObstacleChanges& changes,
-                                                      const std::vector<PairRule>* rules) const;
+  PrepareObstacles prepareObstacles() const;
   std::shared_ptr<const Tick> changeWorld(const TickJobs::Job& job);
   void takeOver(const Params& params);
 

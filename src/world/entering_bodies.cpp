@@ -7,7 +7,6 @@
 #include <unordered_set>
 
 #include "hgrid_proximity/bodies/name.h"
-#include "hgrid_proximity/refusal.h"
 
 namespace hgrid {
 namespace {
@@ -79,6 +78,10 @@ void checkEntering(const EnteringBodies& in, std::size_t count, std::size_t plan
                                      " planes (max_planes)");
     }
   }
+}
+
+Refusal removedTwice(const Body& body) {
+  return {Code::dup_id, "body '" + body.name + "' is to be removed twice; list it only once"};
 }
 
 bool isSameElsewhere(const Body& before, const Body& after) {

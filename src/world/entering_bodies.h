@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hgrid_proximity/refusal.h"
 #include "hgrid_proximity/world/scene.h"
 
 namespace hgrid {
@@ -29,6 +30,9 @@ std::size_t planesOf(const Body& body);
 /// @throws Refusal as Scene::add()
 void checkEntering(const EnteringBodies& in, std::size_t count, std::size_t planes, const SceneOptions& options,
                    const std::function<bool(const std::string&)>& stays);
+
+/// Returns the refusal of a change that removes a body twice.
+Refusal removedTwice(const Body& body);
 
 /// Returns whether `after` is the fixed obstacle `before`, perhaps at another place. Its pairs then continue. A moving
 /// obstacle becomes a new body, because its pose may be unknown until its frame is found.

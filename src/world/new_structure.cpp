@@ -3,6 +3,7 @@
 //
 // The part of a scene that makes and sets a new structure after bodies, rules or margins changed.
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "world/scene_state.h"
@@ -16,7 +17,7 @@ PairFilter Scene::State::filterFor(const BodyList& next, const std::vector<std::
   static_assert(PairFilter::kUnknown == Structure::kNone);
   const PairFilter* earlier = nullptr;
   if (!rules_changed) earlier = &structure->filter;
-  if (prepared && prepared->revision == structure->revision) earlier = &prepared->filter;
+  if (prepared_rules && prepared_rules->revision == structure->revision) earlier = &prepared_rules->filter;
   if (earlier == nullptr) return PairFilter(next, options.pair_kinds, options.allowed_pairs);
   return bodies_changed ? earlier->forBodies(next, known, name_matches) : *earlier;
 }
@@ -29,13 +30,12 @@ BodyChange Scene::State::changeOfBodies() const {
   change.out.erase(std::unique(change.out.begin(), change.out.end()), change.out.end());
   for (const std::uint32_t body : change.out) {
     const BodyId id = structure->ids[body];
-    if (isThere(id)) change.in.push_back({bodies[id.slot], id, body});
+    if (isThere(id)) change.in.push_back({bodies[id.slot], id, body});  // it was replaced; otherwise, it left
   }
+  const auto replaced = static_cast<std::ptrdiff_t>(change.in.size());
   for (const auto& [name, slot] : entered) change.in.push_back({bodies[slot], {slot, slots[slot].generation}});
-  const auto by_name = [](const EnteringBody& a, const EnteringBody& b) { return a.body->name < b.body->name; };
-  if (!std::is_sorted(change.in.begin(), change.in.end(), by_name)) {
-    std::sort(change.in.begin(), change.in.end(), by_name);
-  }
+  std::inplace_merge(change.in.begin(), change.in.begin() + replaced, change.in.end(),  // both parts are sorted by name
+                     [](const EnteringBody& a, const EnteringBody& b) { return a.body->name < b.body->name; });
   return change;
 }
 
@@ -61,7 +61,7 @@ void Scene::State::setStructure(std::shared_ptr<const SceneStructure> next, std:
   left.clear();
   options_changed = bodies_changed = false;
   rules_changed = options.allowed_pairs != structure->filter.rules();
-  prepared.reset();
+  prepared_rules.reset();
   name_matches.clear();
 }
 

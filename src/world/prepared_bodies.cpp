@@ -47,31 +47,28 @@ PreparedBodies Scene::prepare(const Snapshot& newest, const std::vector<std::str
   const SceneStructure& before = *data.before;
   data.in.reserve(in.size());
   for (Body& body : in) data.in.push_back(std::make_shared<const Body>(std::move(body)));
+  std::vector<std::uint32_t>& leaving = data.change.out;
   for (const std::string& name : out) {
     const std::uint32_t body = before.find(name);
     if (body == Structure::kNone) {
       throw Refusal(Code::unknown_id,
                     "there is no body '" + printable(name) + "'; only an existing body can be removed");
     }
-    data.out.push_back(body);
+    leaving.push_back(body);
   }
-  std::sort(data.out.begin(), data.out.end());
-  const auto twice = std::adjacent_find(data.out.begin(), data.out.end());
-  if (twice != data.out.end()) {
-    throw Refusal(Code::dup_id, "body '" + before.bodies[*twice].name + "' is to be removed twice; list it only once");
-  }
-  const auto leaves = [&](std::uint32_t body) { return std::binary_search(data.out.begin(), data.out.end(), body); };
+  std::sort(leaving.begin(), leaving.end());
+  const auto twice = std::adjacent_find(leaving.begin(), leaving.end());
+  if (twice != leaving.end()) throw removedTwice(before.bodies[*twice]);
   std::size_t planes = before.planes.size();
-  for (const std::uint32_t body : data.out) planes -= planesOf(before.bodies[body]);
-  checkEntering(data.in, before.bodies.size() - data.out.size(), planes, options, [&](const std::string& name) {
+  for (const std::uint32_t body : leaving) planes -= planesOf(before.bodies[body]);
+  checkEntering(data.in, before.bodies.size() - leaving.size(), planes, options, [&](const std::string& name) {
     const std::uint32_t body = before.find(name);
-    return body != Structure::kNone && !leaves(body);
+    return body != Structure::kNone && !std::binary_search(leaving.begin(), leaving.end(), body);
   });
   data.sorted.resize(data.in.size());
   std::iota(data.sorted.begin(), data.sorted.end(), std::size_t{0});
   std::sort(data.sorted.begin(), data.sorted.end(),
             [&](std::size_t a, std::size_t b) { return data.in[a]->name < data.in[b]->name; });
-  data.change.out = data.out;
   for (const std::size_t index : data.sorted) {
     const std::shared_ptr<const Body>& body = data.in[index];
     const std::uint32_t known = before.find(body->name);
@@ -102,10 +99,10 @@ std::vector<BodyId> Scene::exchangePrepared(const std::vector<BodyId>& out, Prep
 
 /// Returns whether `prepared` was made for the present structure, and for the removal of exactly the bodies `out`.
 bool Scene::State::isUpToDate(const PreparedBodies::Data& prepared, const std::vector<BodyId>& out) const {
-  if (isOutdated() || structure != prepared.before || out.size() != prepared.out.size()) return false;
+  if (isOutdated() || structure != prepared.before || out.size() != prepared.change.out.size()) return false;
   std::vector<BodyId> expected;
   expected.reserve(out.size());
-  for (const std::uint32_t body : prepared.out) expected.push_back(structure->ids[body]);
+  for (const std::uint32_t body : prepared.change.out) expected.push_back(structure->ids[body]);
   return slotsOf(out) == slotsOf(expected) &&
          std::all_of(out.begin(), out.end(), [&](BodyId id) { return isThere(id); });
 }
@@ -122,7 +119,7 @@ std::vector<BodyId> Scene::State::exchange(PreparedBodies::Data& prepared) {
       stays[body.replaces] = true;
     }
   }
-  for (const std::uint32_t body : prepared.out) {
+  for (const std::uint32_t body : prepared.change.out) {
     if (!stays[body]) leaving.push_back(structure->ids[body].slot);
   }
   std::sort(leaving.begin(), leaving.end());

@@ -17,7 +17,6 @@ namespace hgrid {
 struct PreparedBodies::Data {
   std::shared_ptr<const SceneStructure> before;  ///< the structure before the change
   EnteringBodies in;                             ///< in the order of the caller
-  std::vector<std::uint32_t> out;                ///< indices in `before` of the bodies that leave, ascending
   std::vector<std::size_t> sorted;               ///< indices of the elements of `in`, sorted by the names of the bodies
   BodyChange change;                             ///< what changes; change.in is in the order of `sorted`
   std::vector<std::uint32_t> places;             ///< for each element of change.in: its index in `next`

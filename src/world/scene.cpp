@@ -74,9 +74,7 @@ std::vector<std::uint32_t> Scene::State::checkedSlots(const std::vector<BodyId>&
   }
   std::sort(leaving.begin(), leaving.end());
   const auto twice = std::adjacent_find(leaving.begin(), leaving.end());
-  if (twice != leaving.end()) {
-    throw Refusal(Code::dup_id, "body '" + bodies[*twice]->name + "' is to be removed twice; list it only once");
-  }
+  if (twice != leaving.end()) throw removedTwice(*bodies[*twice]);
   return leaving;
 }
 
@@ -146,7 +144,7 @@ std::uint32_t Scene::State::slotOf(const std::string& name) const {
 }
 
 /// Returns the index in `structure` of the body in a slot, or Structure::kNone if the structure lacks the body.
-std::uint32_t Scene::State::placeOf(std::uint32_t slot) const {
+std::uint32_t Scene::State::indexOf(std::uint32_t slot) const {
   const std::uint32_t body = slot < body_of_slot.size() ? body_of_slot[slot] : Structure::kNone;
   return body != Structure::kNone && isThere(structure->ids[body]) ? body : Structure::kNone;
 }
@@ -185,7 +183,7 @@ std::vector<BodyId> Scene::State::exchange(const std::vector<BodyId>& out, Enter
   // The code below allocates no memory, so it cannot fail.
   bodies_changed = bodies_changed || !out.empty() || !ids.empty();
   const auto noteLeft = [this](std::uint32_t slot) {
-    const std::uint32_t body = placeOf(slot);
+    const std::uint32_t body = indexOf(slot);
     if (body != Structure::kNone) left.push_back(body);
     return body != Structure::kNone;
   };
@@ -195,8 +193,10 @@ std::vector<BodyId> Scene::State::exchange(const std::vector<BodyId>& out, Enter
   }
   for (const std::uint32_t slot : staying) noteLeft(slot);
   entered.merge(names);
-  for (std::size_t i = 0; i < entering.size(); ++i) ids[entering[i]] = putIn(numbers[i], in[entering[i]]);
-  for (std::size_t i = 0; i < ids.size(); ++i) bodies[ids[i].slot] = std::move(in[i]);  // also those that keep a slot
+  for (std::size_t i = 0; i < entering.size(); ++i) ids[entering[i]] = putIn(numbers[i], std::move(in[entering[i]]));
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (in[i]) bodies[ids[i].slot] = std::move(in[i]);  // this body keeps its slot
+  }
   return ids;
 }
 
@@ -278,22 +278,22 @@ void Scene::setCells(BodyId id, std::shared_ptr<const MapCells> cells) {
 void Scene::setRules(std::vector<PairRule> rules) {
   State& s = *state_;
   s.options.allowed_pairs = std::move(rules);
-  s.prepared.reset();
+  s.prepared_rules.reset();
   // Before the first commit, the structure has no filter yet.
   s.rules_changed = s.structure->revision == 0 || s.options.allowed_pairs != s.structure->filter.rules();
 }
 
 void Scene::setPreparedRules(PreparedRules prepared) {
   setRules(prepared.filter.rules());
-  state_->prepared = std::move(prepared);
+  state_->prepared_rules = std::move(prepared);
 }
 
 void Scene::removeRules(const std::vector<bool>& gone) {
   State& s = *state_;
   if (!s.rules_changed) {
     setPreparedRules({s.structure->filter.without(gone), s.structure->revision});
-  } else if (s.prepared) {
-    setPreparedRules({s.prepared->filter.without(gone), s.prepared->revision});
+  } else if (s.prepared_rules) {
+    setPreparedRules({s.prepared_rules->filter.without(gone), s.prepared_rules->revision});
   } else {
     std::vector<PairRule> rules;
     for (std::size_t i = 0; i < gone.size(); ++i) {

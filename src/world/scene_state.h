@@ -74,12 +74,12 @@ struct Scene::State {
   std::vector<std::uint32_t> free_slots;               // indices of the unused slots; has capacity for all slots
   std::size_t body_count = 0;                          // number of bodies in the scene
   std::map<std::string, std::uint32_t> entered;        // slots of the bodies that `structure` lacks, by name
-  std::vector<std::uint32_t> left;        // bodies of `structure` that left or were replaced; one may occur twice
-  bool options_changed = true;            // whether tune() changed an option since `structure` was made
-  bool bodies_changed = true;             // whether exchange() was called since, even if all that came left again
-  bool rules_changed = true;              // whether options.allowed_pairs differ from the rules of `structure`
-  std::optional<PreparedRules> prepared;  // has the same rules as options.allowed_pairs
-  std::vector<NameMatches> name_matches;  // see Scene::prepareNames(); the oldest come first
+  std::vector<std::uint32_t> left;              // bodies of `structure` that left or were replaced; one may occur twice
+  bool options_changed = true;                  // whether tune() changed an option since `structure` was made
+  bool bodies_changed = true;                   // whether exchange() was called since, even if all that came left again
+  bool rules_changed = true;                    // whether options.allowed_pairs differ from the rules of `structure`
+  std::optional<PreparedRules> prepared_rules;  // has the same rules as options.allowed_pairs
+  std::vector<NameMatches> name_matches;        // see Scene::prepareNames(); the oldest come first
   std::uint64_t sequence = 0, epoch = 0, commits = 0;
 
   bool isThere(BodyId id) const {
@@ -88,7 +88,7 @@ struct Scene::State {
   /// Returns whether the next commit must make a new structure.
   bool isOutdated() const { return options_changed || rules_changed || bodies_changed; }
   std::uint32_t slotOf(const std::string& name) const;
-  std::uint32_t placeOf(std::uint32_t slot) const;
+  std::uint32_t indexOf(std::uint32_t slot) const;
   std::vector<std::uint32_t> checkedSlots(const std::vector<BodyId>& out);
   std::vector<std::uint32_t> slotsFor(const std::vector<std::uint32_t>& leaving, std::size_t count) const;
   std::size_t reserveSlots(const std::vector<std::uint32_t>& numbers);
@@ -147,9 +147,9 @@ struct Scene::State {
   void fillDoubtful(Snapshot& snapshot) const;
 
   std::shared_ptr<const SceneStructure> structure = std::make_shared<SceneStructure>();
-  std::vector<std::uint32_t> body_of_slot;  // index in `structure`, or kNone, of the body that was in the slot when
-                                            // `structure` was set; see placeOf()
-  std::shared_ptr<const Snapshot> last;     // snapshot of the last commit; null before the first one
+  // For each slot that existed when `structure` was set: the index in `structure` of the body that was there, or kNone.
+  std::vector<std::uint32_t> body_of_slot;
+  std::shared_ptr<const Snapshot> last;  // snapshot of the last commit; null before the first one
   Horizon horizon;
   MapPairs map_pairs;
   PlanePairs plane_pairs;

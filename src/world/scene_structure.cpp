@@ -3,6 +3,8 @@
 #include "world/scene_structure.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "hgrid_proximity/bodies/name.h"
@@ -74,9 +76,8 @@ void fillSources(const std::vector<std::string>& required, Structure& structure)
     if (found.empty() || found.back() != source) found.push_back(std::move(source));
     structure.source_of.push_back(static_cast<std::uint32_t>(found.size() - 1));
   }
-  structure.sources = found;
-  std::sort(structure.sources.begin(), structure.sources.end());
-  structure.sources.erase(std::unique(structure.sources.begin(), structure.sources.end()), structure.sources.end());
+  const std::set<std::string> sources(found.begin(), found.end());
+  structure.sources.assign(sources.begin(), sources.end());
   std::vector<std::uint32_t> sorted;  // for each element of `found`: its index in Structure::sources
   for (const std::string& source : found) {
     const auto at = std::lower_bound(structure.sources.begin(), structure.sources.end(), source);
@@ -116,7 +117,7 @@ std::shared_ptr<SceneStructure> nextStructure(const SceneStructure& before, cons
     }
   };
   for (; in != change.in.end(); ++in) {
-    keepUntil(before.placeOf(in->body->name));
+    keepUntil(before.countBefore(in->body->name));
     known.push_back(in->replaces);
     appender.append(in->body, in->id, in->replaces);
   }

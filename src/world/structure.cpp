@@ -4,7 +4,7 @@
 
 namespace hgrid {
 
-std::uint32_t Structure::placeOf(const std::string& name) const {
+std::uint32_t Structure::countBefore(const std::string& name) const {
   std::uint32_t begin = 0, end = static_cast<std::uint32_t>(bodies.size());
   while (begin < end) {
     const std::uint32_t middle = begin + (end - begin) / 2;
@@ -18,8 +18,8 @@ std::uint32_t Structure::placeOf(const std::string& name) const {
 }
 
 std::uint32_t Structure::find(const std::string& name) const {
-  const std::uint32_t place = placeOf(name);
-  return place < bodies.size() && bodies[place].name == name ? place : kNone;
+  const std::uint32_t body = countBefore(name);
+  return body < bodies.size() && bodies[body].name == name ? body : kNone;
 }
 
 }  // namespace hgrid

@@ -311,7 +311,7 @@ TEST(SceneFailedAllocation, AfterABodyMovedAndLeftIsHarmless) {
   EXPECT_GT(failures, 20u);
 }
 
-/// Claim: an exchange whose preparation is out of date changes nothing if it fails.
+/// Claim: exchangePrepared() changes nothing if it fails, also if what was prepared is out of date.
 TEST(SceneFailedAllocation, OfAnOutdatedExchangeChangesNothing) {
   SceneOptions options;
   options.allowed_pairs = {test::allow("obstacle/*", "obstacle/none*")};

@@ -35,28 +35,28 @@ class Twins {
       std::vector<Body> in;
       choose(out, in);
       PreparedBodies prepared = prepare(out, in);
-      const int kind = random_.below(11);
-      if (kind == 0) {
+      const auto meanwhile = static_cast<Meanwhile>(random_.below(kMeanwhiles));
+      if (meanwhile == Meanwhile::a_body_comes) {
         ASSERT_NO_FATAL_FAILURE(addAnother());
       }
-      if (kind == 1) setRules(someRules());
-      if (kind == 2) tune();
-      if (kind == 3) {
+      if (meanwhile == Meanwhile::rules_are_set) setRules(someRules());
+      if (meanwhile == Meanwhile::settings_change) tune();
+      if (meanwhile == Meanwhile::a_commit) {
         ASSERT_NO_FATAL_FAILURE(commit());
       }
-      if (kind == 4) prepared = prepare(out, in);  // replaces lists that were never used
+      if (meanwhile == Meanwhile::preparing_again) prepared = prepare(out, in);
       const std::vector<PairRule> rules = someRules();
-      if (kind >= 8) prepared = twin_.prepare(*newest_, out, in, rules);
+      const bool expects_rules = meanwhile >= Meanwhile::expected_rules_later;
+      if (expects_rules) prepared = twin_.prepare(*newest_, out, in, rules);
       const std::uint64_t before = twin_.revision();
       ASSERT_NO_FATAL_FAILURE(exchange(out, in, std::move(prepared)));
       used_ += twin_.revision() > before ? 1 : 0;
-      if (kind == 5) setRules(someRules());
-      if (kind == 8) setRules(rules);        // as expected
-      if (kind == 9) setRules(someRules());  // rules other than the expected ones
-      // If kind is 10, no rules are set, although some were expected.
-      if (kind == 6) {
+      if (meanwhile == Meanwhile::rules_later) setRules(someRules());
+      if (meanwhile == Meanwhile::a_body_comes_later) {
         ASSERT_NO_FATAL_FAILURE(addAnother());
       }
+      if (meanwhile == Meanwhile::expected_rules_later) setRules(rules);
+      if (meanwhile == Meanwhile::other_rules_later) setRules(someRules());
       move();
       ASSERT_NO_FATAL_FAILURE(commit());
     }
@@ -64,6 +64,22 @@ class Twins {
   int used() const { return used_; }
 
  private:
+  /// What happens between prepare() and exchangePrepared(), or later but before the next commit.
+  enum class Meanwhile {
+    nothing,
+    a_body_comes,
+    rules_are_set,
+    settings_change,
+    a_commit,
+    preparing_again,  ///< the first preparation is never used
+    rules_later,
+    a_body_comes_later,
+    expected_rules_later,  ///< prepare() was told of these rules
+    other_rules_later,     ///< prepare() was told of others
+    no_rules_although_expected,
+  };
+  static constexpr int kMeanwhiles = 11;
+
   static SceneOptions optionsOf(test::Random& random) {
     SceneOptions options;
     options.margin = test::sixtyFourths(random, 0, 0.5);

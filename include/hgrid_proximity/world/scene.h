@@ -187,8 +187,8 @@ class Scene {
   /// Begins a new epoch: ticks and events are numbered from 1 again, and NearPair::since of all pairs starts again.
   void beginEpoch(std::uint64_t epoch);
 
-  /// Returns Structure::revision of the newest structure: that of the last commit, or of a later exchangePrepared()
-  /// that used the prepared lists.
+  /// Returns Structure::revision of the newest structure. The last commit() made it, or a later exchangePrepared()
+  /// replaced it by a prepared one.
   std::uint64_t revision() const;
   /// Returns how long the last commit took.
   const TickTimes& lastTimes() const;

@@ -48,7 +48,7 @@ struct Structure {
   /// Returns the index of a proxy's shape among the shapes of its body.
   std::uint32_t shapeOf(std::uint32_t proxy) const { return proxy - first_proxy[body_of_proxy[proxy]]; }
   /// Returns the number of bodies whose names sort before this name.
-  std::uint32_t placeOf(const std::string& name) const;
+  std::uint32_t countBefore(const std::string& name) const;
   /// Returns the index of the body with this name, or kNone.
   std::uint32_t find(const std::string& name) const;
 };

@@ -15,8 +15,8 @@
 
 namespace hgrid {
 
-/// Serves ~save_scene and ~load_scene. The thread that serves a request reads or writes the file; a tick only adds
-/// the finished obstacles.
+/// Serves ~save_scene and ~load_scene. The thread that serves a request reads or writes the file, and prepares what it
+/// reads. A tick only takes over the prepared obstacles and rules, or returns the present obstacles.
 ///
 /// As with AllowedServices, only one thread may serve requests.
 class SceneFileServices {

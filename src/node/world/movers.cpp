@@ -29,6 +29,12 @@ void NewMovers::add(const std::string& frame, const SourceId& source, Body body,
   join(std::move(body), frame_from_body);
 }
 
+void NewMovers::add(const SourceId& source, Body body) {
+  const std::string frame = body.frame;
+  const Pose frame_from_body = body.frame_from_body;
+  add(frame, source, std::move(body), frame_from_body);
+}
+
 void NewMovers::reserve(std::size_t bodies) {
   in_.reserve(in_.size() + bodies);
   movers_.reserve(movers_.size() + bodies);
@@ -47,17 +53,9 @@ void NewMovers::prepare(const Scene& scene, const Snapshot& newest, const std::v
 }
 
 void Movers::add(const SourceId& source, Body body) {
-  makeRoom(movers_, 1);
-  makeRoom(members_, 1);
-  Mover mover{body.frame, source};
-  mover.first = members_.size();
-  mover.last = mover.first + 1;
-  Member member = memberAt(body.frame_from_body);
-  member.body = scene_.add(std::move(body));
-  // The code below does not allocate, so it cannot fail.
-  members_.push_back(member);
-  movers_.push_back(std::move(mover));
-  ++revision_;
+  NewMovers coming;
+  coming.add(source, std::move(body));
+  exchange(nullptr, std::move(coming));
 }
 
 void Movers::giveUp(const std::set<std::string>& names) noexcept {

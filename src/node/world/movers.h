@@ -41,7 +41,9 @@ class NewMovers {
  public:
   /// Makes room for further movers with one body each.
   void reserve(std::size_t bodies);
-  /// Adds a mover with one body.
+  /// Adds a mover with one body, which follows its `frame`.
+  void add(const SourceId& source, Body body);
+  /// Adds a mover with one body, which follows another frame.
   void add(const std::string& frame, const SourceId& source, Body body, const Pose& frame_from_body);
   /// Adds a body to the mover that was added last.
   void join(Body body, const Pose& frame_from_body);
@@ -51,8 +53,8 @@ class NewMovers {
   void prepare(const Scene& scene, const Snapshot& newest, const std::vector<std::string>& out,
                const std::optional<std::vector<PairRule>>& rules);
 
-  /// Returns whether prepare() was called.
-  bool isPrepared() const { return prepared_.has_value(); }
+  /// Returns whether there are neither new movers nor anything that was prepared.
+  bool empty() const { return movers_.empty() && !prepared_; }
 
  private:
   friend class Movers;

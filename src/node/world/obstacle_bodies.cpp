@@ -175,7 +175,7 @@ std::shared_ptr<PreparedObstacles> ObstacleBodies::prepare(const ObstacleChanges
     if (rules != nullptr || !hasDerived(present, Origin::attached, draft.touch)) {
       next = withTouchRules(rules == nullptr ? present : *rules, draft.touch);
     }
-    if (draft.leaving.empty() && draft.coming_count == 0 && !next) return prepared;  // the structure stays
+    if (draft.leaving.empty() && draft.coming.empty() && !next) return prepared;  // the structure stays
     draft.coming.prepare(scene, *newest.snapshot, {draft.leaving.begin(), draft.leaving.end()}, next);
   } catch (const Refusal&) {
     return nullptr;  // apply() finds out whether the changes must be refused
@@ -232,7 +232,7 @@ void ObstacleBodies::carryOut(ObstacleEdits edits, const std::string& world_fram
 /// Changes obstacles in this object and in the movers. @param lost  full names of obstacles that become LOST
 void ObstacleBodies::carryOut(ObstacleDraft& draft, Movers& movers, const std::set<std::string>& lost) {
   const SharedObstacles::Access access(present_);
-  if (!draft.leaving.empty() || draft.coming_count != 0 || draft.coming.isPrepared()) {
+  if (!draft.leaving.empty() || !draft.coming.empty()) {
     std::function<bool(const SourceId&)> leaves;
     if (!draft.leaving.empty()) {
       leaves = [&](const SourceId& source) {

@@ -68,11 +68,7 @@ ObstacleDraft draftOf(ObstacleEdits edits, const PlacedObstacles& present, bool 
     if (old != present.end()) draft.outdated.push_back(name);
     if (old != present.end() && isOnlyRenewed(old->second, next)) continue;
     if (old != present.end()) draft.leaving.insert(name);
-    Body body = bodyOf(next, world_frame);
-    const std::string frame = body.frame;
-    const Pose frame_from_body = body.frame_from_body;
-    draft.coming.add(frame, SourceId::ofObstacle(name), std::move(body), frame_from_body);
-    ++draft.coming_count;
+    draft.coming.add(SourceId::ofObstacle(name), bodyOf(next, world_frame));
   }
   const bool some_attach = std::any_of(edits.set.begin(), edits.set.end(),
                                        [](const auto& edit) { return edit.second.attachment != nullptr; });

@@ -20,7 +20,6 @@ struct ObstacleDraft {
   ObstacleEdits edits;                      ///< the edits, as editsOf() returns them
   std::unordered_set<std::string> leaving;  ///< full names of the obstacles whose movers leave
   NewMovers coming;                         ///< movers of the obstacles that are new or replaced
-  std::size_t coming_count = 0;             ///< number of these obstacles
   std::vector<PairRule> touch;              ///< the rules for what may touch attached obstacles, after the edits
   Time first_end = Time::max();             ///< the earliest end of a lifetime among the edited obstacles
   std::vector<std::string> outdated;        ///< full names of the present obstacles that leave or change

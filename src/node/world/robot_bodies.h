@@ -45,7 +45,8 @@ class RobotBodies {
   /// Replaces the model of the robot of the same name, or adds a robot. An absent robot stays absent.
   /// @throws Refusal limit (~max_bodies), or as Scene::exchange()
   /// @param robot     not null
-  /// @param prepared  see prepare(); null: none. Not used if links have paddings, or if it was made for another change.
+  /// @param prepared  result of prepare(); null: none. It is not used if setPaddings() gave paddings to links, or if it
+  ///                  was made for another change.
   void set(std::shared_ptr<const LoadedRobot> robot, PreparedRobotBodies* prepared = nullptr);
   /// Applies changes of robots, all of them or none. @param world_frame  empty: not known yet
   /// @throws ChangeRefusal as edit() and checkSharesRoot(), or limit (~max_bodies); Refusal as Scene::exchange()

@@ -19,8 +19,8 @@ struct DerivedRules {
   std::uint64_t revision = 0;  ///< grows with each change of the rules
 };
 
-/// Returns whether the rules of this origin in `rules` are those of `derived`, in this order and without other rules
-/// between them.
+/// Returns whether the rules of this origin in `rules` are those in `derived`, in the same order, and whether no other
+/// rules are between them.
 bool hasDerived(const std::vector<PairRule>& rules, Origin origin, const std::vector<PairRule>& derived);
 
 /// Returns `rules` with its rules for attached obstacles replaced by `touch`. See RulesInForce for the order.

@@ -126,7 +126,7 @@ void World::setMap(const LoadedMap& map) {
   maps.set(source, body, map);
   if (!same) {  // otherwise only the cells of the map change, and the structure of the scene stays the same
     NewMovers coming;
-    coming.add(body.frame, source, body, body.frame_from_body);
+    coming.add(source, body);
     movers_.exchange([&](const SourceId& other) { return other == source; }, std::move(coming));
   }
   // The code below does not throw, because the body is a map without shapes, and the cells exist.
