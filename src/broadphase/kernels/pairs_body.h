@@ -65,6 +65,42 @@ inline void meetRows(const Level& asking, std::uint32_t first, std::uint32_t bit
   }
 }
 
+/// Tests the boxes of a block against the boxes that follow them in their rows of cells. Box first + k is tested
+/// against the next left[k] boxes.
+///
+/// Tests all boxes of the block against their next boxes, then all against the second next, and so on, because these
+/// are successive in memory. When few boxes are left, tests one box after the other: that is faster for a box with many
+/// boxes left.
+/// @param all  bit k: whether the block has box first + k
+template <bool kRare>
+inline __attribute__((always_inline)) void meetFollowing(const Level& level, std::uint32_t first, std::uint32_t all,
+                                                         const std::int32_t* left, Output<Pair>& found) {
+  constexpr std::uint32_t kNear = 8;
+  constexpr int kFewNear = 2, kFewFar = 11;
+  constexpr std::uint32_t kParts = kBlock / Simd::kWidth, kLanes = (1u << Simd::kWidth) - 1u;
+  Simd::Boxes boxes[kParts];
+  for (std::uint32_t part = 0; part < kParts; ++part) boxes[part] = Simd::boxesAt(level, first + part * Simd::kWidth);
+  for (std::uint32_t ahead = 1;; ++ahead) {
+    std::uint32_t open = Simd::atLeast(left, static_cast<std::int32_t>(ahead)) & all;
+    if (__builtin_popcount(open) <= (ahead <= kNear ? kFewNear : kFewFar)) {
+      for (; open != 0; open &= open - 1) {
+        const auto k = static_cast<std::uint32_t>(Simd::lowestBit(open));
+        meetRange<kRare>(level, first + k, level, first + k + ahead, static_cast<std::uint32_t>(left[k]) + 1 - ahead,
+                         found);
+      }
+      return;
+    }
+    for (std::uint32_t part = 0; part < kParts; ++part) {
+      const std::uint32_t i = first + part * Simd::kWidth;
+      const std::uint32_t hits =
+          Simd::overlapsEach(boxes[part], level, i + ahead) & (open >> (part * Simd::kWidth)) & kLanes;
+      if (!kRare || __builtin_expect(hits != 0, 0)) {
+        found.wrote(Simd::storePairsOfEach(found.room(), level.id + i, level.id + i + ahead, hits));
+      }
+    }
+  }
+}
+
 inline std::uint32_t bitsBelow(std::uint32_t count) { return count >= kBlock ? 0xffffu : (1u << count) - 1u; }
 
 /// A box is stored in the cell of its minimum corner (Ericson 2005, 7.1.6). So all boxes that overlap a given box are
@@ -83,7 +119,8 @@ searchBlocks(const Level& level, std::uint32_t begin, std::uint32_t end, Output<
   const int x = grid.axes[0], y = grid.axes[1], z = grid.axes[2];  // x is the axis of the rows
   Output<Pair> found = out;  // a local copy, which the compiler can keep in registers
   alignas(64) std::int32_t x_low[kBlock], x_high[kBlock], y_low[kBlock], y_own[kBlock], y_high[kBlock], z_own[kBlock],
-      z_high[kBlock], own_row[kBlock], low_row[kBlock], own_span[kBlock], low_span[kBlock], z_span[kBlock];
+      z_high[kBlock], own_row[kBlock], low_row[kBlock], own_span[kBlock], low_span[kBlock], z_span[kBlock],
+      left[kBlock];
   std::uint32_t first = begin;
   for (bool same = true; same && first < end && !found.full(); first += kBlock) {
     const std::uintptr_t before = found.address();
@@ -102,11 +139,10 @@ searchBlocks(const Level& level, std::uint32_t begin, std::uint32_t end, Output<
       low_span[k] = y_high[k] - y_low[k];
       z_span[k] = z_high[k] - z_own[k];
     }
-    const std::uint32_t stop = end - first < kBlock ? end - first : kBlock;
-    for (std::uint32_t k = 0; k < stop; ++k) {
-      const std::uint32_t next = first + k + 1, row_end = l.start[own_row[k] + x_high[k] + 1];
-      meetRange<kRare>(l, first + k, l, next, row_end > next ? row_end - next : 0, found);
+    for (int k = 0; k < kBlock; ++k) {
+      left[k] = static_cast<std::int32_t>(l.start[own_row[k] + x_high[k] + 1] - first) - k - 1;
     }
+    meetFollowing<kRare>(l, first, all, left, found);
     for (std::int32_t rows = 1;; ++rows) {
       const std::uint32_t bits = Simd::atLeast(own_span, rows) & all;
       if (bits == 0) break;

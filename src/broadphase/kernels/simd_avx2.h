@@ -48,6 +48,16 @@ struct SimdAvx2 : SimdSse2 {
   }
   static Id idAt(const Level& level, std::uint32_t i) { return _mm256_set1_epi32(static_cast<int>(level.id[i])); }
 
+  using Boxes = Box;
+  static Boxes boxesAt(const Columns& boxes, std::uint32_t i) {
+    const float *const min = boxes.bounds + i, *const max = min + 3 * boxes.stride;
+    return {{_mm256_loadu_ps(min), _mm256_loadu_ps(min + boxes.stride), _mm256_loadu_ps(min + 2 * boxes.stride)},
+            {_mm256_loadu_ps(max), _mm256_loadu_ps(max + boxes.stride), _mm256_loadu_ps(max + 2 * boxes.stride)}};
+  }
+  static std::uint32_t overlapsEach(const Boxes& lanes, const Columns& boxes, std::uint32_t j) {
+    return overlaps(lanes, boxes, j, kWidth);
+  }
+
   static std::uint32_t overlaps(const Box& box, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
     const __m256 x =
         _mm256_and_ps(_mm256_cmp_ps(_mm256_loadu_ps(boxes.bounds + j), box.max[0], _CMP_LE_OQ),
@@ -62,15 +72,11 @@ struct SimdAvx2 : SimdSse2 {
     return bits & (0xffu >> (count < kWidth ? kWidth - count : 0u));
   }
 
-  static Pair* storePairs(Pair* next, Id id, const std::uint32_t* ids, std::uint32_t bits) {
-    const __m256i others = packed(ids, bits);
-    const __m256i first = _mm256_min_epu32(id, others), second = _mm256_max_epu32(id, others);
-    const __m256i low = _mm256_unpacklo_epi32(first, second), high = _mm256_unpackhi_epi32(first, second);
-    auto* to = reinterpret_cast<__m256i*>(next);
-    const int count = __builtin_popcount(bits);
-    _mm256_storeu_si256(to, _mm256_permute2x128_si256(low, high, 0x20));
-    if (__builtin_expect(count > 4, 0)) _mm256_storeu_si256(to + 1, _mm256_permute2x128_si256(low, high, 0x31));
-    return next + count;
+  static Pair* storePairs(Pair* to, Id id, const std::uint32_t* ids, std::uint32_t bits) {
+    return storeFirst(to, id, packed(ids, bits), __builtin_popcount(bits));
+  }
+  static Pair* storePairsOfEach(Pair* to, const std::uint32_t* a, const std::uint32_t* b, std::uint32_t bits) {
+    return storeFirst(to, packed(a, bits), packed(b, bits), __builtin_popcount(bits));
   }
   static std::uint32_t* storePositions(std::uint32_t* to, std::uint32_t j, std::uint32_t bits) {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
@@ -107,6 +113,15 @@ struct SimdAvx2 : SimdSse2 {
   }
 
  private:
+  /// Writes the first `count` pairs of a and b.
+  static Pair* storeFirst(Pair* next, __m256i a, __m256i b, int count) {
+    const __m256i first = _mm256_min_epu32(a, b), second = _mm256_max_epu32(a, b);
+    const __m256i low = _mm256_unpacklo_epi32(first, second), high = _mm256_unpackhi_epi32(first, second);
+    auto* to = reinterpret_cast<__m256i*>(next);
+    _mm256_storeu_si256(to, _mm256_permute2x128_si256(low, high, 0x20));
+    if (__builtin_expect(count > 4, 0)) _mm256_storeu_si256(to + 1, _mm256_permute2x128_si256(low, high, 0x31));
+    return next + count;
+  }
   /// Returns the indices of the bits that are 1 in `bits`, in ascending order, then zeros.
   static __m256i lanesIn(std::uint32_t bits) {
     const __m256i packed = _mm256_set1_epi32(static_cast<int>(kPackedLanes.of[bits]));

@@ -28,6 +28,16 @@ struct SimdAvx512 : SimdSse2 {
   }
   static Id idAt(const Level& level, std::uint32_t i) { return _mm512_set1_epi32(static_cast<int>(level.id[i])); }
 
+  using Boxes = Box;
+  static Boxes boxesAt(const Columns& boxes, std::uint32_t i) {
+    const float *const min = boxes.bounds + i, *const max = min + 3 * boxes.stride;
+    return {{_mm512_loadu_ps(min), _mm512_loadu_ps(min + boxes.stride), _mm512_loadu_ps(min + 2 * boxes.stride)},
+            {_mm512_loadu_ps(max), _mm512_loadu_ps(max + boxes.stride), _mm512_loadu_ps(max + 2 * boxes.stride)}};
+  }
+  static std::uint32_t overlapsEach(const Boxes& lanes, const Columns& boxes, std::uint32_t j) {
+    return overlaps(lanes, boxes, j, kWidth);
+  }
+
   static std::uint32_t overlaps(const Box& box, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
     // Three independent chains of comparisons are faster than one chain: each comparison takes several cycles.
     __mmask16 x = static_cast<__mmask16>(0xffffu >> (count < kWidth ? kWidth - count : 0u));
@@ -41,18 +51,10 @@ struct SimdAvx512 : SimdSse2 {
   }
 
   static Pair* storePairs(Pair* to, Id id, const std::uint32_t* ids, std::uint32_t bits) {
-    const __m512i others = packed(ids, bits);
-    const __m512i first = _mm512_min_epu32(id, others), second = _mm512_max_epu32(id, others);
-    const int count = __builtin_popcount(bits);
-    _mm512_storeu_si512(
-        to, _mm512_permutex2var_epi32(first, _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23),
-                                      second));
-    if (__builtin_expect(count > 8, 0)) {
-      _mm512_storeu_si512(
-          to + 8, _mm512_permutex2var_epi32(
-                      first, _mm512_setr_epi32(8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31), second));
-    }
-    return to + count;
+    return storeFirst(to, id, packed(ids, bits), __builtin_popcount(bits));
+  }
+  static Pair* storePairsOfEach(Pair* to, const std::uint32_t* a, const std::uint32_t* b, std::uint32_t bits) {
+    return storeFirst(to, packed(a, bits), packed(b, bits), __builtin_popcount(bits));
   }
   static std::uint32_t* storePositions(std::uint32_t* to, std::uint32_t j, std::uint32_t bits) {
     const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
@@ -85,6 +87,19 @@ struct SimdAvx512 : SimdSse2 {
   }
 
  private:
+  /// Writes the first `count` pairs of a and b.
+  static Pair* storeFirst(Pair* to, __m512i a, __m512i b, int count) {
+    const __m512i first = _mm512_min_epu32(a, b), second = _mm512_max_epu32(a, b);
+    _mm512_storeu_si512(
+        to, _mm512_permutex2var_epi32(first, _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23),
+                                      second));
+    if (__builtin_expect(count > 8, 0)) {
+      _mm512_storeu_si512(
+          to + 8, _mm512_permutex2var_epi32(
+                      first, _mm512_setr_epi32(8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31), second));
+    }
+    return to + count;
+  }
   /// Returns the ids[k] for which bit k of `bits` is 1, moved to the front. Compresses in a register, because
   /// compressing directly to memory is slow on some processors.
   static __m512i packed(const std::uint32_t* ids, std::uint32_t bits) {

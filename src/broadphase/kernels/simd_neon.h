@@ -62,6 +62,16 @@ struct SimdNeon {
   }
   static Id idAt(const Level& level, std::uint32_t i) { return vld1q_dup_u32(level.id + i); }
 
+  using Boxes = Box;
+  static Boxes boxesAt(const Columns& boxes, std::uint32_t i) {
+    const float *const min = boxes.bounds + i, *const max = min + 3 * boxes.stride;
+    return {{vld1q_f32(min), vld1q_f32(min + boxes.stride), vld1q_f32(min + 2 * boxes.stride)},
+            {vld1q_f32(max), vld1q_f32(max + boxes.stride), vld1q_f32(max + 2 * boxes.stride)}};
+  }
+  static std::uint32_t overlapsEach(const Boxes& lanes, const Columns& boxes, std::uint32_t j) {
+    return overlaps(lanes, boxes, j, kWidth);
+  }
+
   static std::uint32_t overlaps(const Box& box, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
     const float *const min = boxes.bounds + j, *const max = min + 3 * boxes.stride;
     const std::size_t y_row = boxes.stride, z_row = 2 * boxes.stride;
@@ -74,12 +84,10 @@ struct SimdNeon {
   }
 
   static Pair* storePairs(Pair* to, Id id, const std::uint32_t* ids, std::uint32_t bits) {
-    const uint8x16_t bytes = vreinterpretq_u8_u32(vld1q_u32(ids));
-    const uint32x4_t others = vreinterpretq_u32_u8(vqtbl1q_u8(bytes, vld1q_u8(kNeonTables.bytes[bits])));
-    const uint32x4_t first = vminq_u32(id, others), second = vmaxq_u32(id, others);
-    vst1q_u32(&to->first, vzip1q_u32(first, second));
-    vst1q_u32(&to[2].first, vzip2q_u32(first, second));
-    return to + kNeonTables.count[bits];
+    return storeFirst(to, id, packed(ids, bits), kNeonTables.count[bits]);
+  }
+  static Pair* storePairsOfEach(Pair* to, const std::uint32_t* a, const std::uint32_t* b, std::uint32_t bits) {
+    return storeFirst(to, packed(a, bits), packed(b, bits), kNeonTables.count[bits]);
   }
   static std::uint32_t* storePositions(std::uint32_t* to, std::uint32_t j, std::uint32_t bits) {
     vst1q_u32(to, vaddq_u32(vdupq_n_u32(j), vld1q_u32(kNeonTables.lanes[bits])));
@@ -151,6 +159,18 @@ struct SimdNeon {
   }
 
  private:
+  /// Writes the first `count` pairs of a and b.
+  static Pair* storeFirst(Pair* to, uint32x4_t a, uint32x4_t b, int count) {
+    const uint32x4_t first = vminq_u32(a, b), second = vmaxq_u32(a, b);
+    vst1q_u32(&to->first, vzip1q_u32(first, second));
+    vst1q_u32(&to[2].first, vzip2q_u32(first, second));
+    return to + count;
+  }
+  /// Returns the ids[k] for which bit k of `bits` is 1, moved to the front.
+  static uint32x4_t packed(const std::uint32_t* ids, std::uint32_t bits) {
+    const uint8x16_t bytes = vreinterpretq_u8_u32(vld1q_u32(ids));
+    return vreinterpretq_u32_u8(vqtbl1q_u8(bytes, vld1q_u8(kNeonTables.bytes[bits])));
+  }
   /// Returns the value 1 << lane in each lane below `count`, and 0 in the other lanes.
   static uint32x4_t bitsBelow(std::uint32_t count) {
     return vld1q_u32(kNeonTables.bit_of_lane[count < kWidth ? count : kWidth]);

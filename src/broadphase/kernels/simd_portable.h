@@ -24,6 +24,36 @@ struct SimdPortable {
   }
   static Id idAt(const Level& level, std::uint32_t i) { return level.id[i]; }
 
+  /// kWidth boxes, one in each lane.
+  struct Boxes {
+    float min[3][kWidth], max[3][kWidth];
+  };
+  /// Returns the boxes at the positions from i on.
+  static Boxes boxesAt(const Columns& boxes, std::uint32_t i) {
+    Boxes lanes;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::uint32_t k = 0; k < kWidth; ++k) {
+        lanes.min[axis][k] = boxes.bounds[axis * boxes.stride + i + k];
+        lanes.max[axis][k] = boxes.bounds[(axis + 3) * boxes.stride + i + k];
+      }
+    }
+    return lanes;
+  }
+  /// Tests each lane against a box of its own. Bit k of the result is 1 if the box in lane k overlaps the box at
+  /// position j + k.
+  static std::uint32_t overlapsEach(const Boxes& lanes, const Columns& boxes, std::uint32_t j) {
+    std::uint32_t bits = 0;
+    for (std::uint32_t k = 0; k < kWidth; ++k) {
+      bool meet = true;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        meet = meet & (boxes.bounds[axis * boxes.stride + j + k] <= lanes.max[axis][k]) &
+               (boxes.bounds[(axis + 3) * boxes.stride + j + k] >= lanes.min[axis][k]);
+      }
+      bits |= static_cast<std::uint32_t>(meet) << k;
+    }
+    return bits;
+  }
+
   /// Tests `box` against the boxes at the positions from j on. Bit k of the result is 1 if `box` overlaps the box at
   /// position j + k. Bit k is 0 for k >= count and for k >= kWidth.
   static std::uint32_t overlaps(const Box& box, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
@@ -45,6 +75,14 @@ struct SimdPortable {
     for (; bits != 0; bits &= bits - 1) {
       const std::uint32_t other = ids[lowestBit(bits)];
       *to++ = id < other ? Pair{id, other} : Pair{other, id};
+    }
+    return to;
+  }
+  /// Writes the pair of a[k] and b[k] for each bit k that is set, like storePairs().
+  static Pair* storePairsOfEach(Pair* to, const std::uint32_t* a, const std::uint32_t* b, std::uint32_t bits) {
+    for (; bits != 0; bits &= bits - 1) {
+      const int k = lowestBit(bits);
+      *to++ = a[k] < b[k] ? Pair{a[k], b[k]} : Pair{b[k], a[k]};
     }
     return to;
   }

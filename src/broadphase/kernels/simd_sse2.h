@@ -31,6 +31,16 @@ struct SimdSse2 {
   }
   static Id idAt(const Level& level, std::uint32_t i) { return level.id[i]; }
 
+  using Boxes = Box;
+  static Boxes boxesAt(const Columns& boxes, std::uint32_t i) {
+    const float *const min = boxes.bounds + i, *const max = min + 3 * boxes.stride;
+    return {{_mm_loadu_ps(min), _mm_loadu_ps(min + boxes.stride), _mm_loadu_ps(min + 2 * boxes.stride)},
+            {_mm_loadu_ps(max), _mm_loadu_ps(max + boxes.stride), _mm_loadu_ps(max + 2 * boxes.stride)}};
+  }
+  static std::uint32_t overlapsEach(const Boxes& lanes, const Columns& boxes, std::uint32_t j) {
+    return overlaps(lanes, boxes, j, kWidth);
+  }
+
   static std::uint32_t overlaps(const Box& box, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
     __m128 meet = _mm_cmple_ps(_mm_loadu_ps(boxes.bounds + j), box.max[0]);
     meet = _mm_and_ps(meet, _mm_cmpge_ps(_mm_loadu_ps(boxes.bounds + 3 * boxes.stride + j), box.min[0]));
@@ -46,6 +56,13 @@ struct SimdSse2 {
     for (; bits != 0; bits &= bits - 1) {
       const std::uint32_t other = ids[lowestBit(bits)];
       *to++ = id < other ? Pair{id, other} : Pair{other, id};
+    }
+    return to;
+  }
+  static Pair* storePairsOfEach(Pair* to, const std::uint32_t* a, const std::uint32_t* b, std::uint32_t bits) {
+    for (; bits != 0; bits &= bits - 1) {
+      const int k = lowestBit(bits);
+      *to++ = a[k] < b[k] ? Pair{a[k], b[k]} : Pair{b[k], a[k]};
     }
     return to;
   }
