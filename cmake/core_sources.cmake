@@ -35,6 +35,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/book/uniform_grid.cpp
   src/broadphase/broad_phase_reader.cpp
   src/broadphase/broad_phase_type.cpp
+  src/broadphase/hgrid/box_sample.cpp
   src/broadphase/hgrid/cell_plan.cpp
   src/broadphase/hgrid/engine.cpp
   src/broadphase/hgrid/hgrid.cpp

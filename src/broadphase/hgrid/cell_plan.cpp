@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "broadphase/hgrid/box_sample.h"
 #include "geometry/infinity.h"
 
 namespace hgrid {
@@ -14,8 +16,11 @@ namespace {
 using Vector = std::array<double, 3>;
 
 // Costs [ns] in the estimates below. They were measured on one machine. Only their ratios matter.
-constexpr double kPerBox = 4.0, kPerRow = 3.0, kPerAskedRow = 6.0, kPerTest = 3.0, kPerCell = 0.15;
+constexpr double kPerBox = 10.0, kPerBoxOfOneRow = 4.0, kPerFollower = 0.375,
+                 kPerFollowerOfOneRow = 0.8;  // in its own row
+constexpr double kPerRow = 3.0, kPerAskingBox = 4.0, kPerAskedRow = 6.0, kPerTest = 3.0, kPerCell = 0.15;
 constexpr double kLanes = 8.0;  // boxes per test; one value for all instruction sets, so that all make the same plan
+constexpr std::size_t kWorthSampling = 256;  // boxes; in a smaller region, the window contains all boxes
 constexpr double kMostCellsPerBox = 1.0;  // must be an integer for CellPlan::mostCells()
 
 /// Statistics of the boxes of one size class, or of several size classes together.
@@ -80,7 +85,7 @@ Cells cellsOf(const Census& level, const Window& window, double across) {
   const double own = per_meter * (level.mean(x) + 0.5 * cells.edge[x]);
   const double other = per_meter * (level.mean(x) + level.largest[x] + cells.edge[x]);
   const auto tests = [](double candidates) { return kPerTest * (1.0 + candidates / kLanes); };
-  const double per_box = kPerBox + kPerRow + tests(std::min(own, level.boxes)) +
+  const double per_box = kPerBox + kPerFollower * std::min(own, level.boxes) +
                          other_rows * (kPerRow + tests(std::min(other, level.boxes)));
   cells.cost = level.boxes * per_box + kPerCell * cells.count[x] * rows;
   return cells;
@@ -102,6 +107,27 @@ Cells bestCellsOf(const Census& level, const Window& window) {
   return best;
 }
 
+/// Plans one row of cells for all boxes, along the best axis, and makes it the first of window.axes. Then a search only
+/// tests each box with those that follow it (the sweep along one axis, Ericson 2005, 7.5). Unlike the other estimates,
+/// the cost also holds for boxes that are spread unevenly.
+Cells oneRowOf(const Census& all, const BoxSample& sample, Window& window) {
+  Cells best;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Cells cells;
+    for (std::size_t i = 0; i < 3; ++i) cells.edge[i] = 1.0 + 2.0 * window.length(i);
+    cells.count.fill(1.0);
+    const double length = window.length(axis), most = window.mostCells(all.boxes) - 1.0;
+    cells.edge[axis] = std::max({all.largest[axis] / 12.0, length / most, 1e-30});
+    cells.count[axis] = cellsAlong(length, cells.edge[axis]);
+    const double followers = sample.followers(axis, all.mean(axis) + 0.5 * cells.edge[axis]);
+    cells.cost = all.boxes * (kPerBoxOfOneRow + kPerFollowerOfOneRow * followers) + kPerCell * cells.count[axis];
+    if (!(cells.cost < best.cost)) continue;
+    best = cells;
+    window.axes = {axis, (axis + 1) % 3, (axis + 2) % 3};
+  }
+  return best;
+}
+
 /// Estimates the cost [ns] to find the pairs of the boxes `asking` with the boxes `asked` of a coarser level.
 double costOfAsking(const Census& asking, const Census& asked, const Cells& cells, const Window& window) {
   const auto [x, y, z] = window.axes;
@@ -112,30 +138,16 @@ double costOfAsking(const Census& asking, const Census& asked, const Cells& cell
   const double along =
       std::min(1.0, (asking.mean(x) + asked.largest[x] + cells.edge[x]) / (cells.edge[x] * cells.count[x]));
   const double candidates = asked.boxes * along / (cells.count[y] * cells.count[z]);
-  return asking.boxes * (kPerBox + rows * (kPerAskedRow + kPerTest * (1.0 + candidates / kLanes)));
+  return asking.boxes * (kPerAskingBox + rows * (kPerAskedRow + kPerTest * (1.0 + candidates / kLanes)));
 }
 
-/// Computes the window from a sample of at most 1024 boxes. On each axis, the window contains the middle 98 % of the
-/// minimum corners, and it extends beyond each end by half of their length. It never extends beyond the outermost
-/// corner. So one box that is a million meters away does not make the cells of the others a thousand times too large.
-Window windowOf(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, const Vector& lower,
-                const Vector& upper) {
-  constexpr std::size_t kSample = 1024;
-  const std::size_t stride = std::max<std::size_t>(1, count / kSample);
+/// Computes the window. On each axis, it contains the middle 98 % of the minimum corners, and it extends beyond each
+/// end by half of their length. It never extends beyond the outermost corner. So one box that is a million meters away
+/// does not make the cells of the others a thousand times too large.
+Window windowOf(const BoxSample& sample, const Vector& lower, const Vector& upper) {
   Window window;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    std::array<float, kSample> values;
-    std::size_t sampled = 0;
-    for (std::size_t i = 0; i < count && sampled < kSample; i += stride) {
-      values[sampled++] = boxes[ids[i]].min[static_cast<Eigen::Index>(axis)];
-    }
-    const std::size_t least = sampled / 100, most = sampled - 1 - least;
-    const auto first = values.begin(), end = first + static_cast<std::ptrdiff_t>(sampled);
-    std::nth_element(first, first + static_cast<std::ptrdiff_t>(least), end);
-    const double low = values[least];
-    std::nth_element(first, first + static_cast<std::ptrdiff_t>(most), end);
-    const double high = values[most];
-    const double beyond = 0.5 * (high - low);
+    const double low = sample.low(axis), high = sample.high(axis), beyond = 0.5 * (high - low);
     window.low[axis] = std::max(lower[axis], low - beyond);
     window.high[axis] = std::min(upper[axis], high + beyond);
   }
@@ -152,9 +164,8 @@ std::array<std::size_t, 3> axesFor(const Window& window, const Census& all) {
   return other == 1 ? std::array<std::size_t, 3>{1, 0, 2} : std::array<std::size_t, 3>{2, 0, 1};
 }
 
-/// Appends a level with its cheapest cells to the plan.
-void append(CellPlan& plan, const Census& census, const Window& window, double side) {
-  const Cells cells = bestCellsOf(census, window);
+/// Appends a level with these cells to the plan.
+void append(CellPlan& plan, const Census& census, const Window& window, const Cells& cells, double side) {
   const std::size_t number = plan.levels++;
   kernels::Grid& grid = plan.grids[number];
   for (std::size_t i = 0; i < 3; ++i) {
@@ -178,7 +189,8 @@ void append(CellPlan& plan, const Census& census, const Window& window, double s
 
 float longestSide(const Aabb& box) { return (box.max - box.min).maxCoeff(); }
 
-CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge, bool even) {
+CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge,
+                 bool is_region) {
   std::array<Census, GridScale::kLevels + 1> sizes;
   Vector lower, upper;
   lower.fill(kInfinity);
@@ -204,8 +216,10 @@ CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t
   CellPlan plan;
   plan.boxes = count;
   if (count == 0) return plan;
-  Window window = even ? Window{lower, upper} : windowOf(boxes, ids, count, lower, upper);
-  window.spare_cells = static_cast<double>(even ? CellPlan::kSpareCellsOfRegion : CellPlan::kSpareCells);
+  std::optional<BoxSample> sample;
+  if (!is_region || count >= kWorthSampling) sample.emplace(boxes, ids, count);
+  Window window = sample ? windowOf(*sample, lower, upper) : Window{lower, upper};
+  window.spare_cells = static_cast<double>(is_region ? CellPlan::kSpareCellsOfRegion : CellPlan::kSpareCells);
   Census all;
   for (const Census& level : sizes) all.add(level);
   window.axes = axesFor(window, all);
@@ -224,9 +238,11 @@ CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t
     finer[i].add(sizes[i]);
   }
   Census coarse;
-  double coarse_side = 0.0;
+  double coarse_side = 0.0, cost = 0.0;
   const auto close = [&] {
-    append(plan, coarse, window, coarse_side);
+    const Cells cells = bestCellsOf(coarse, window);
+    append(plan, coarse, window, cells, coarse_side);
+    cost += cells.cost;
     coarse = Census{};
   };
   for (std::size_t i = sizes.size(); i-- > 0;) {
@@ -238,12 +254,22 @@ CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t
       double apart = alone.cost + bestCellsOf(sizes[i], window).cost + costOfAsking(finer[i], coarse, alone, window);
       double joined = shared.cost;
       if (i > 0 && finer[i - 1].boxes > 0.0) joined += costOfAsking(finer[i - 1], together, shared, window);
-      if (apart < joined) close();
+      if (apart < joined) {
+        cost += costOfAsking(finer[i], coarse, alone, window);
+        close();
+      }
     }
     if (coarse.boxes == 0.0) coarse_side = finest_edge * std::pow(GridScale::kRatio, static_cast<double>(i));
     coarse.add(sizes[i]);
   }
   close();
+  if (!is_region) {
+    const Cells one_row = oneRowOf(all, *sample, window);
+    if (one_row.cost < cost) {
+      plan.levels = 0;
+      append(plan, all, window, one_row, coarse_side);
+    }
+  }
   const auto finestFirst = [&plan](auto& values) {
     std::reverse(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(plan.levels));
   };

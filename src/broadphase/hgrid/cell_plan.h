@@ -50,11 +50,14 @@ struct CellPlan {
 ///   grows by the factor GridScale::kRatio. Each class has its own level, or shares a level with other classes if that
 ///   costs less.
 /// - The edge of the cells is one of several multiples of the longest box side, from 1 to 10000.
+/// - If few boxes are close to each other along one axis, all boxes share one level, which is one row of cells along this
+///   axis.
 ///
 /// @param finest_edge  [m] longest box side of the smallest size class
-/// @param even  true if the boxes are spread evenly, as in one of several regions; then the window contains all boxes
+/// @param is_region  whether the boxes are those of one of several regions, so that they are spread evenly, except for
+///   a few
 CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge,
-                 bool even = false);
+                 bool is_region = false);
 
 /// Estimates how many rows of cells of the level `asked` a search visits for one box of the level `asking`.
 double rowsAsked(const kernels::Level& asking, const kernels::Level& asked);

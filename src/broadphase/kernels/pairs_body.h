@@ -103,6 +103,62 @@ inline __attribute__((always_inline)) void meetFollowing(const Level& level, std
 
 inline std::uint32_t bitsBelow(std::uint32_t count) { return count >= kBlock ? 0xffffu : (1u << count) - 1u; }
 
+/// The cells of the boxes of a block. A row of cells is named by the index of its first cell.
+struct BlockCells {
+  std::int32_t x_low[kBlock], x_high[kBlock];      // range of cells in a row, x_high included
+  std::int32_t own_row[kBlock], own_span[kBlock];  // row of the minimum corner, and number of rows after it in the slab
+  std::int32_t low_row[kBlock], low_span[kBlock];  // first row that may have overlapping boxes in a later slab
+  std::int32_t z_span[kBlock];                     // number of later slabs
+
+  inline __attribute__((always_inline)) void find(const Level& level, std::uint32_t first) {
+    const Grid& grid = level.grid;
+    const int x = grid.axes[0], y = grid.axes[1], z = grid.axes[2];  // x is the axis of the rows
+    alignas(64) std::int32_t y_low[kBlock], y_own[kBlock], y_high[kBlock], z_own[kBlock], z_high[kBlock];
+    cellsOf(level, first, 0, level.reach[x], grid, x, x_low);
+    cellsOf(level, first, 3, 0.0f, grid, x, x_high);
+    cellsOf(level, first, 0, level.reach[y], grid, y, y_low);
+    cellsOf(level, first, 0, 0.0f, grid, y, y_own);
+    cellsOf(level, first, 3, 0.0f, grid, y, y_high);
+    cellsOf(level, first, 0, 0.0f, grid, z, z_own);
+    cellsOf(level, first, 3, 0.0f, grid, z, z_high);
+    for (int k = 0; k < kBlock; ++k) {
+      own_row[k] = z_own[k] * grid.slab + y_own[k] * grid.row;
+      low_row[k] = z_own[k] * grid.slab + y_low[k] * grid.row;
+      own_span[k] = y_high[k] - y_own[k];
+      low_span[k] = y_high[k] - y_low[k];
+      z_span[k] = z_high[k] - z_own[k];
+    }
+  }
+  /// Works like find() if the level has one row. Sets only `x_high` and `own_row`.
+  inline __attribute__((always_inline)) void findInOneRow(const Level& level, std::uint32_t first) {
+    const int x = level.grid.axes[0];
+    cellsOf(level, first, 3, 0.0f, level.grid, x, x_high);
+    for (std::int32_t& row : own_row) row = 0;
+  }
+};
+
+/// Tests the boxes of a block against the boxes in later rows than their own.
+template <bool kRare>
+inline __attribute__((always_inline)) void meetLaterRows(const Level& level, std::uint32_t first, std::uint32_t all,
+                                                         const BlockCells& cells, Output<Pair>& found) {
+  const Grid& grid = level.grid;
+  for (std::int32_t rows = 1;; ++rows) {
+    const std::uint32_t bits = Simd::atLeast(cells.own_span, rows) & all;
+    if (bits == 0) break;
+    meetRows<kRare>(level, first, bits, level, cells.own_row, rows * grid.row, cells.x_low, cells.x_high, found);
+  }
+  for (std::int32_t slabs = 1;; ++slabs) {
+    const std::uint32_t slab_bits = Simd::atLeast(cells.z_span, slabs) & all;
+    if (slab_bits == 0) break;
+    for (std::int32_t rows = 0;; ++rows) {
+      const std::uint32_t bits = Simd::atLeast(cells.low_span, rows) & slab_bits;
+      if (bits == 0) break;
+      meetRows<kRare>(level, first, bits, level, cells.low_row, slabs * grid.slab + rows * grid.row, cells.x_low,
+                      cells.x_high, found);
+    }
+  }
+}
+
 /// A box is stored in the cell of its minimum corner (Ericson 2005, 7.1.6). So all boxes that overlap a given box are
 /// in the cells from the cell of (minimum - reach) to the cell of the maximum of the given box. Each box is tested only
 /// against the boxes that follow it in the order of cells. These are the rest of its own row up to its maximum, and
@@ -115,48 +171,20 @@ std::uint32_t __attribute__((noinline))
 searchBlocks(const Level& level, std::uint32_t begin, std::uint32_t end, Output<Pair>& out) {
   constexpr std::uintptr_t kMany = 2 * sizeof(Pair);  // output of a block that has not many hits [bytes]
   const Level l = level;
-  const Grid& grid = l.grid;
-  const int x = grid.axes[0], y = grid.axes[1], z = grid.axes[2];  // x is the axis of the rows
+  const bool is_one_row = l.grid.last[l.grid.axes[1]] == 0.0f && l.grid.last[l.grid.axes[2]] == 0.0f;
   Output<Pair> found = out;  // a local copy, which the compiler can keep in registers
-  alignas(64) std::int32_t x_low[kBlock], x_high[kBlock], y_low[kBlock], y_own[kBlock], y_high[kBlock], z_own[kBlock],
-      z_high[kBlock], own_row[kBlock], low_row[kBlock], own_span[kBlock], low_span[kBlock], z_span[kBlock],
-      left[kBlock];
+  alignas(64) BlockCells cells;
+  alignas(64) std::int32_t left[kBlock];
   std::uint32_t first = begin;
   for (bool same = true; same && first < end && !found.full(); first += kBlock) {
     const std::uintptr_t before = found.address();
     const std::uint32_t all = bitsBelow(end - first);
-    cellsOf(l, first, 0, l.reach[x], grid, x, x_low);
-    cellsOf(l, first, 3, 0.0f, grid, x, x_high);
-    cellsOf(l, first, 0, l.reach[y], grid, y, y_low);
-    cellsOf(l, first, 0, 0.0f, grid, y, y_own);
-    cellsOf(l, first, 3, 0.0f, grid, y, y_high);
-    cellsOf(l, first, 0, 0.0f, grid, z, z_own);
-    cellsOf(l, first, 3, 0.0f, grid, z, z_high);
+    is_one_row ? cells.findInOneRow(l, first) : cells.find(l, first);
     for (int k = 0; k < kBlock; ++k) {
-      own_row[k] = z_own[k] * grid.slab + y_own[k] * grid.row;
-      low_row[k] = z_own[k] * grid.slab + y_low[k] * grid.row;
-      own_span[k] = y_high[k] - y_own[k];
-      low_span[k] = y_high[k] - y_low[k];
-      z_span[k] = z_high[k] - z_own[k];
-    }
-    for (int k = 0; k < kBlock; ++k) {
-      left[k] = static_cast<std::int32_t>(l.start[own_row[k] + x_high[k] + 1] - first) - k - 1;
+      left[k] = static_cast<std::int32_t>(l.start[cells.own_row[k] + cells.x_high[k] + 1] - first) - k - 1;
     }
     meetFollowing<kRare>(l, first, all, left, found);
-    for (std::int32_t rows = 1;; ++rows) {
-      const std::uint32_t bits = Simd::atLeast(own_span, rows) & all;
-      if (bits == 0) break;
-      meetRows<kRare>(l, first, bits, l, own_row, rows * grid.row, x_low, x_high, found);
-    }
-    for (std::int32_t slabs = 1;; ++slabs) {
-      const std::uint32_t slab_bits = Simd::atLeast(z_span, slabs) & all;
-      if (slab_bits == 0) break;
-      for (std::int32_t rows = 0;; ++rows) {
-        const std::uint32_t bits = Simd::atLeast(low_span, rows) & slab_bits;
-        if (bits == 0) break;
-        meetRows<kRare>(l, first, bits, l, low_row, slabs * grid.slab + rows * grid.row, x_low, x_high, found);
-      }
-    }
+    if (!is_one_row) meetLaterRows<kRare>(l, first, all, cells, found);
     // If the buffer has a new address, the difference means nothing. That only affects the speed.
     const std::uintptr_t wrote = found.address() - before;
     same = kRare ? wrote <= kMany : wrote > 0;
