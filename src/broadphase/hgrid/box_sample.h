@@ -26,7 +26,7 @@ class BoxSample {
   double followers(std::size_t axis, double length) const;
 
  private:
-  static constexpr std::size_t kMost = 512;
+  static constexpr std::size_t kMost = 256;
 
   std::array<std::array<float, kMost>, 3> sorted_;
   std::size_t size_ = 0;
