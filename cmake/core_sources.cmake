@@ -35,13 +35,13 @@ set(HGRID_CORE_SOURCES
   src/broadphase/book/uniform_grid.cpp
   src/broadphase/broad_phase_reader.cpp
   src/broadphase/broad_phase_type.cpp
+  src/broadphase/hgrid/bounds_tree.cpp
   src/broadphase/hgrid/box_sample.cpp
   src/broadphase/hgrid/cell_plan.cpp
   src/broadphase/hgrid/engine.cpp
   src/broadphase/hgrid/hgrid.cpp
   src/broadphase/hgrid/layer.cpp
   src/broadphase/hgrid/layer_plan.cpp
-  src/broadphase/hgrid/level_bounds.cpp
   src/broadphase/hgrid/occupancy.cpp
   src/broadphase/hgrid/pair_collection.cpp
   src/broadphase/hgrid/pair_search.cpp

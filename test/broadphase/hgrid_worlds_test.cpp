@@ -79,7 +79,8 @@ TEST(HGridWorlds, HeapsTenKilometersApartAreEachAsRightAsOne) {
   }
 }
 
-/// Returns a world whose boxes are spread so unevenly that the grid divides space into regions.
+/// Returns a world whose boxes are spread so unevenly that the grid divides space into regions. In the worlds of kind
+/// 0, it sorts the boxes along one axis instead.
 std::vector<Aabb> unevenWorld(int kind, std::size_t count, Random& random) {
   std::vector<Aabb> boxes;
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
@@ -155,6 +156,67 @@ TEST(HGridWorlds, UnevenWorldsAreRightWithAllThreadsAndWhileBoxesMove) {
         std::sort(distances.begin(), distances.end());
         for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(nearest[k].distance, distances[k]);
       }
+    }
+  }
+}
+
+/// Expects that the queries near and far from the boxes are answered as by testing every box. Boxes whose id is not in
+/// `ids` are not in the grid.
+void expectRightAnswers(const HGrid& grid, const std::vector<Aabb>& boxes, const std::vector<ProxyId>& ids,
+                        Random& random) {
+  for (int i = 0; i < 30; ++i) {
+    const Eigen::Vector3d near = boxes[std::size_t(random.below(int(boxes.size())))].min.cast<double>();
+    const Eigen::Vector3d place = near + randomVector(random, -1, 1) * random.logUniform(0.1, 1000.0);
+    const Sphere sphere{place, random.logUniform(0.1, 50.0)};
+    const Segment segment{place, place + randomVector(random, -1, 1) * random.logUniform(0.1, 1000.0), 0.1};
+    const Aabb box = boxAround(place, randomVector(random, 0.1, 20.0));
+    std::vector<ProxyId> in_sphere, on_segment, in_box, found;
+    std::vector<double> distances;
+    for (const ProxyId id : ids) {
+      if (touches(sphere, boxes[id])) in_sphere.push_back(id);
+      if (meet(segment, boxes[id])) on_segment.push_back(id);
+      if (overlap(boxes[id], box)) in_box.push_back(id);
+      distances.push_back(distance(boxes[id], place));
+    }
+    grid.overlapping(sphere, found);
+    ASSERT_EQ(found, in_sphere);
+    grid.overlapping(box, found);
+    ASSERT_EQ(found, in_box);
+    std::vector<ProxyId> met;
+    for (const SegmentHit& hit : test::alongOf(grid, segment)) met.push_back(hit.id);
+    std::sort(met.begin(), met.end());
+    ASSERT_EQ(met, on_segment);
+    std::sort(distances.begin(), distances.end());
+    std::vector<NearHit> nearest;
+    grid.nearest(place, 40, std::numeric_limits<double>::infinity(), nearest);
+    ASSERT_EQ(nearest.size(), std::min<std::size_t>(40, ids.size()));
+    for (std::size_t k = 0; k < nearest.size(); ++k) ASSERT_EQ(nearest[k].distance, distances[k]);
+  }
+}
+
+TEST(HGridWorlds, BoxesInARowAnswerEveryQuery) {
+  for (const Isa isa : test::supportedIsas()) {
+    for (const std::size_t count : {1, 2, 31, 32, 33, 64, 65, 520, 1500}) {
+      SCOPED_TRACE(name(isa) + (", boxes: " + std::to_string(count)));
+      Random random(static_cast<unsigned>(count));
+      std::vector<Aabb> boxes;
+      for (std::size_t i = 0; i < count; ++i) {
+        const Eigen::Vector3d place = 0.4 * double(i) * Eigen::Vector3d(1, -1, 1) + randomVector(random, -0.2, 0.2);
+        boxes.push_back(boxAround(place, randomVector(random, 0.0, 1.2)));
+      }
+      HGrid grid(GridScale::fitting(boxes));
+      grid.setIsa(isa);
+      std::vector<ProxyId> ids = allIds(count);
+      grid.update(ids, boxes);
+      ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
+      ASSERT_NO_FATAL_FAILURE(expectRightAnswers(grid, boxes, ids, random));
+      for (std::size_t i = 0; i + 1 < count && i < 5; ++i) {  // these boxes are withdrawn from the row
+        const auto gone = static_cast<std::size_t>(random.below(int(ids.size())));
+        grid.remove(ids[gone]);
+        ids.erase(ids.begin() + static_cast<std::ptrdiff_t>(gone));
+      }
+      grid.checkInvariants();
+      ASSERT_NO_FATAL_FAILURE(expectRightAnswers(grid, boxes, ids, random));
     }
   }
 }

@@ -14,7 +14,7 @@ AVX2 = "broadphase/kernels/simd_avx2.h"
 LAYER = "broadphase/hgrid/layer.cpp"
 ENGINE = "broadphase/hgrid/engine.cpp"
 PAIRS = "broadphase/hgrid/pair_search.cpp"
-LEVEL_BOUNDS = "broadphase/hgrid/level_bounds.cpp"
+BOUNDS_TREE = "broadphase/hgrid/bounds_tree.cpp"
 COLLECTION = "broadphase/hgrid/pair_collection.cpp"
 HGRID = "broadphase/hgrid/hgrid.cpp"
 QUERIES = "broadphase/hgrid/queries.cpp"
@@ -120,6 +120,15 @@ CORE = [
     ("the quick test along a line ignores its radius", LINE_FILTER,
      "(2.0 * line.around + 2e-5 * farthest)", "(2e-5 * farthest)"),
 
+    ("in a block of a row, the last box is not tested", "broadphase/kernels/levels_body.h",
+     "begin + set.per_box}", "begin + set.per_box - 1}"),
+    ("the bounds of the first block of a row leave out a box", BOUNDS_TREE,
+     "level.end - begin);", "level.end - begin) - (number == 0);"),
+    ("the cells along a line ignore the reach of the boxes", LINE_BODY,
+     "Simd::twoOf(-above, -below)", "Simd::twoOf(-below, -below)"),
+    ("in the outermost cells, a line that rises is treated like one that falls", LINE_BODY,
+     "const double up = slope > 0.0", "const double up = slope < 0.0"),
+
     ("without SIMD, boxes that touch do not overlap", "broadphase/kernels/simd_portable.h",
      "j + k] <= box.max[axis]", "j + k] < box.max[axis]"),
     ("the last lane of a range is left out", AVX2,
@@ -144,7 +153,7 @@ CORE = [
      "meetAll(layer, region, layer, last);", ""),
     ("a region is tested against all regions except its neighbor", PAIRS,
      "if (number >= least) meet", "if (number > least) meet"),
-    ("the bounds of 16 levels are those of the first", LEVEL_BOUNDS,
+    ("the bounds of 16 levels are those of the first", BOUNDS_TREE,
      "i < std::min(first + kernels::Tier::kFan, below.count)", "i < first + 1"),
     ("the bounds of a region end at the minimum corner of its last box", LAYER,
      "std::nextafter(upper[axis] + level.reach[axis], kFloatInfinity)", "upper[axis]"),

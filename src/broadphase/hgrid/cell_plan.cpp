@@ -21,7 +21,7 @@ constexpr double kPerBox = 10.0, kPerBoxOfOneRow = 4.0, kPerFollower = 0.375,
 constexpr double kPerRow = 3.0, kPerAskingBox = 4.0, kPerAskedRow = 6.0, kPerTest = 3.0, kPerCell = 0.15;
 constexpr double kLanes = 8.0;  // boxes per test; one value for all instruction sets, so that all make the same plan
 constexpr std::size_t kWorthSampling = 256;  // boxes; in a smaller region, the window contains all boxes
-constexpr double kMostCellsPerBox = 1.0;  // must be an integer for CellPlan::mostCells()
+constexpr double kMostCellsPerBox = 1.0;     // must be an integer for CellPlan::mostCells()
 
 /// Statistics of the boxes of one size class, or of several size classes together.
 struct Census {
@@ -178,6 +178,7 @@ void append(CellPlan& plan, const Census& census, const Window& window, const Ce
   const auto [x, y, z] = window.axes;
   grid.row = static_cast<std::int32_t>(cells.count[x]);
   grid.slab = grid.row * static_cast<std::int32_t>(cells.count[y]);
+  grid.rows = static_cast<std::int32_t>(cells.count[y] * cells.count[z]);
   grid.steps[x] = 1;
   grid.steps[y] = grid.row;
   grid.steps[z] = grid.slab;

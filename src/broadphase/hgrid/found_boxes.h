@@ -63,7 +63,7 @@ void visitFound(const Engine& engine, MayHave&& may_have, Search&& search, Visit
   for (const Layer& layer : engine.layers) {
     if (layer.size() == 0 || !may_have(layer.occupancy())) continue;
     PositionWriter writer(bufferOfThread());
-    search(layer.levelSet(), writer.sink());
+    search(layer.querySet(), writer.sink());
     if (writer.size() == 0) continue;
     visit(layer, writer);
   }

@@ -90,6 +90,7 @@ void Layer::reserve(std::size_t count, std::size_t ids, const Machine& machine) 
   scratch.sums.reserve(threads * threads);
   levels_.reserve(CellPlan::kMostLevels);
   level_bounds_.reserve(CellPlan::kMostLevels);
+  block_bounds_.reserveBlocks(count);
   extendTo(other_ids_, count + kReadBeyond);
   if (extendTo(ids_, count + kReadBeyond)) point();
   if (extendTo(start_, cells + 1)) point();
@@ -105,6 +106,7 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
     plan_.clear();
     levels_.clear();
     occupancy_.clear();
+    is_one_row_ = false;
     return level_bounds_.set(levels_);
   }
   SortScratch& scratch = *machine.scratch;
@@ -306,6 +308,8 @@ void Layer::describe(const SortScratch& scratch) {
   }
   point();
   level_bounds_.set(levels_);
+  is_one_row_ = levels_.size() == 1 && levels_.front().grid.rows == 1;
+  if (is_one_row_) block_bounds_.setBlocks(levels_.front());
   if (plan_.isDivided()) {
     occupancy_.set(levels_);
   } else {
@@ -333,7 +337,7 @@ void Layer::withdraw(std::uint32_t position) {
 std::size_t Layer::bytes() const {
   return (ids_.capacity() + other_ids_.capacity() + start_.capacity()) * sizeof(std::uint32_t) +
          bounds_.capacity() * sizeof(float) + levels_.capacity() * sizeof(kernels::Level) + level_bounds_.bytes() +
-         occupancy_.bytes() + plan_.bytes();
+         block_bounds_.bytes() + occupancy_.bytes() + plan_.bytes();
 }
 
 void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
@@ -380,6 +384,20 @@ void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
     require(level.end == position, "a level ends where its last cell ends");
   }
   require(position == count_, "every box has a position");
+  if (!isOneRow()) return;
+  block_bounds_.visit([](const kernels::Box&) { return true; },
+                      [&](std::uint32_t block, const kernels::Box& bounds) {
+                        const std::uint32_t begin = block * BoundsTree::kPerBlock;
+                        const auto end = std::min(begin + BoundsTree::kPerBlock, static_cast<std::uint32_t>(count_));
+                        for (std::uint32_t i = begin; i < end; ++i) {
+                          if (isWithdrawn(i)) continue;
+                          const Aabb box = boxAt(i);
+                          for (int axis = 0; axis < 3; ++axis) {
+                            require(bounds.min[axis] <= box.min[axis] && box.max[axis] <= bounds.max[axis],
+                                    "a box is within the bounds of its block");
+                          }
+                        }
+                      });
 }
 
 }  // namespace hgrid

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "broadphase/hgrid/bounds_tree.h"
 #include "broadphase/hgrid/layer_plan.h"
-#include "broadphase/hgrid/level_bounds.h"
 #include "broadphase/hgrid/occupancy.h"
 #include "broadphase/kernels/kernels.h"
 #include "broadphase/workers.h"
@@ -76,10 +76,16 @@ class Layer {
   /// Returns whether there are several regions.
   bool isDivided() const { return plan_.isDivided(); }
   const RegionTree& regions() const { return plan_.tree(); }
-  const LevelBounds& bounds() const { return level_bounds_; }
+  /// Returns whether the layer has one level with one row of cells.
+  bool isOneRow() const { return is_one_row_; }
+  /// Returns the hierarchy of bounds for queries: that of the boxes if isOneRow(), else that of the levels.
+  const BoundsTree& bounds() const { return is_one_row_ ? block_bounds_ : level_bounds_; }
   /// Says where the layer certainly has no boxes.
   const Occupancy& occupancy() const { return occupancy_; }
+  /// Returns the levels with a hierarchy of their bounds.
   kernels::LevelSet levelSet() const { return level_bounds_.over(levels_); }
+  /// Returns the levels with bounds(), for queries.
+  kernels::LevelSet querySet() const { return bounds().over(levels_); }
   /// Returns the allocated memory [bytes].
   std::size_t bytes() const;
   /// @throws std::logic_error that names the first violated invariant
@@ -105,7 +111,9 @@ class Layer {
   std::size_t stride_ = 0;
   std::vector<std::uint32_t> start_;  // position of the first box of each cell; at last, the end of the last cell
   std::vector<kernels::Level> levels_;
-  LevelBounds level_bounds_;
+  BoundsTree level_bounds_;
+  BoundsTree block_bounds_;  // of the boxes, if the layer has one row
+  bool is_one_row_ = false;
   Occupancy occupancy_;
 };
 

@@ -268,7 +268,7 @@ class RegionSearch {
     if (asking.end - asking.begin <= kFew)
       return kernels_.pairsAcross(&asking, asking.begin, asking.end, &asked, sink_);
     PositionWriter writer(gathered_.positions);
-    const kernels::LevelSet all = {&asking, 1, nullptr, 0};
+    const kernels::LevelSet all = {&asking, 1, nullptr, 0, 0};
     kernels_.overlapping(&all, &asked.around, writer.sink());
     const std::size_t count = writer.size();
     if (count == 0) return;

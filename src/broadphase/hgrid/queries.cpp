@@ -177,6 +177,13 @@ double likelyRadius(const kernels::Level& level, std::size_t count) {
   return 0.5 * std::cbrt(volume);
 }
 
+/// Estimates the radius [m] of a sphere that contains `count` boxes of a row, from the bounds of a block of them.
+double likelyRadius(const kernels::Box& block, std::size_t count) {
+  double longest = 1e-30;
+  for (int i = 0; i < 3; ++i) longest = std::max(longest, static_cast<double>(block.max[i]) - block.min[i]);
+  return longest * std::max(1.0, static_cast<double>(count) / BoundsTree::kPerBlock);
+}
+
 /// Returns the distance [m] of a point from a box, or 0 if the point is inside.
 double distanceTo(const kernels::Box& bounds, const Eigen::Vector3d& point) {
   double squared = 0.0;
@@ -192,10 +199,9 @@ struct SphereSearch {
   double radius = std::numeric_limits<double>::infinity();  // [m] estimate: a sphere of this radius has enough boxes
   double step = radius;                                     // [m] how much the radius grows if there were too few boxes
 
-  /// Takes the estimate from a level, if this makes the sphere smaller. The sphere must contain `count` boxes of the
-  /// level. `away` [m] is the distance of the level from the point.
-  void consider(const kernels::Level& level, std::size_t count, double away) {
-    const double within = likelyRadius(level, count);
+  /// Takes an estimate, if this makes the sphere smaller: a sphere of the radius `within` [m] contains enough boxes,
+  /// if its center is among them. They are `away` [m] from the point.
+  void consider(double within, double away) {
     if (!(away + within < radius)) return;
     radius = away + within;
     step = within;
@@ -207,11 +213,12 @@ template <class Engine>
 SphereSearch searchAround(const Engine& engine, const Eigen::Vector3d& point, std::size_t count) {
   SphereSearch search;
   for (const Layer& layer : engine.layers) {
-    layer.bounds().visit([&](const kernels::Box& bounds) { return distanceTo(bounds, point) < search.radius; },
-                         [&](std::uint32_t number) {
-                           const kernels::Level& level = layer.levels()[number];
-                           search.consider(level, count, distanceTo(level.around, point));
-                         });
+    layer.bounds().visit(
+        [&](const kernels::Box& bounds) { return distanceTo(bounds, point) < search.radius; },
+        [&](std::uint32_t number, const kernels::Box& bounds) {
+          search.consider(layer.isOneRow() ? likelyRadius(bounds, count) : likelyRadius(layer.levels()[number], count),
+                          distanceTo(bounds, point));
+        });
   }
   return search;
 }

@@ -21,6 +21,13 @@ inline std::int32_t cellOf(float value, const Grid& grid, int axis) {
   return static_cast<std::int32_t>(cell);
 }
 
+/// Finds the boxes in a passage that overlap a box.
+inline void searchPassage(const Level& level, const Simd::Box& query, Passage passage, Output<std::uint32_t>& found) {
+  for (std::uint32_t j = passage.begin; j < passage.end; j += Simd::kWidth) {
+    found.wrote(Simd::storePositions(found.room(), j, Simd::overlaps(query, level, j, passage.end - j)));
+  }
+}
+
 /// Finds the boxes of one level that overlap a box. `query` holds the same box as `box`, in SIMD registers.
 inline void searchLevel(const Level& level, const Box& box, const Simd::Box& query, Output<std::uint32_t>& found) {
   const Level l = level;
@@ -34,10 +41,7 @@ inline void searchLevel(const Level& level, const Box& box, const Simd::Box& que
   for (std::int32_t z = low[grid.axes[2]]; z <= high[grid.axes[2]]; ++z) {
     for (std::int32_t y = low[grid.axes[1]]; y <= high[grid.axes[1]]; ++y) {
       const std::int32_t row = z * grid.slab + y * grid.row;
-      const std::uint32_t end = l.start[row + last + 1];
-      for (std::uint32_t j = l.start[row + first]; j < end; j += Simd::kWidth) {
-        found.wrote(Simd::storePositions(found.room(), j, Simd::overlaps(query, l, j, end - j)));
-      }
+      searchPassage(l, query, {l.start[row + first], l.start[row + last + 1]}, found);
     }
   }
 }
@@ -52,7 +56,10 @@ void overlapping(const LevelSet* set, const Box* box, PositionSink* sink) {
       [&query](const Columns& bounds, std::uint32_t j, std::uint32_t count) {
         return Simd::overlaps(query, bounds, j, count);
       },
-      [&](std::uint32_t number) { searchLevel(levels[number], b, query, found); });
+      [&](std::uint32_t number) {
+        if (set->per_box == 0) return searchLevel(levels[number], b, query, found);
+        searchPassage(*levels, query, passageOf(*set, number), found);
+      });
   found.close();
 }
 

@@ -45,6 +45,7 @@ struct Grid {
   /// not used.
   std::int32_t steps[4];
   std::int32_t axes[3];  ///< 0 (x), 1 (y) and 2 (z) in some order; slabs follow each other along axes[2]
+  std::int32_t rows;     ///< number of rows of all slabs
 };
 
 /// Boxes as a structure of arrays. Each array must have room for 16 values after the last box, because kernels may read
@@ -66,19 +67,22 @@ struct Level : Columns {
   std::uint32_t begin, end;    ///< range of positions of the level's boxes
 };
 
-/// One tier of a hierarchy of boxes. The boxes of the first tier are the bounds of the levels. Box i of any other tier
+/// One tier of a hierarchy of boxes. LevelSet says what the boxes of the first tier contain. Box i of any other tier
 /// contains boxes kFan * i .. kFan * i + kFan - 1 of the tier below it.
 struct Tier : Columns {
   static constexpr std::uint32_t kFan = 16;
   std::uint32_t count;  ///< number of boxes
 };
 
-/// Levels to search, and a hierarchy of their bounds.
+/// Levels to search, and a hierarchy of their bounds, or of the bounds of the boxes of a single level.
 struct LevelSet {
   const Level* levels;
   std::uint32_t count;
-  const Tier* tiers;  ///< the first tier bounds the levels, each other tier bounds the tier before it
+  const Tier* tiers;  ///< each tier except the first bounds the tier before it
   int tier_count;     ///< number of tiers; if it is 0, every level is searched
+  /// If 0, box i of the first tier bounds level i. If not, there is one level, and box i contains its boxes at
+  /// positions per_box * i .. per_box * i + per_box - 1.
+  std::uint32_t per_box;
 };
 
 /// A segment with a radius `around` [m]. A search along it finds the boxes within this distance of the segment.
@@ -149,7 +153,7 @@ struct Kernels {
   /// Finds the overlapping pairs of two levels. Tests the boxes of `asking` at positions begin .. end - 1 against all
   /// boxes of `asked`.
   void (*pairsAcross)(const Level* asking, std::uint32_t begin, std::uint32_t end, const Level* asked, PairSink* sink);
-  /// Finds the levels whose bounds overlap `box`. Writes their indices in ascending order.
+  /// Finds the levels whose bounds overlap `box`. Writes their indices in ascending order. per_box must be 0.
   void (*reaching)(const LevelSet* set, const Box* box, PositionSink* sink);
   /// Finds the boxes that overlap `box`. Writes their positions, in ascending order within each level.
   void (*overlapping)(const LevelSet* set, const Box* box, PositionSink* sink);

@@ -11,8 +11,8 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// Calls visit(number) for each level whose bounds pass the test, in ascending order. `number` is the index of the
-/// level. Considers only the levels in the boxes begin .. end - 1 of the tier. Tests kWidth boxes at once.
+/// Calls visit(number) for each box of the first tier that passes the test, in ascending order. `number` is its index.
+/// Considers only what is in the boxes begin .. end - 1 of the given tier. Tests kWidth boxes at once.
 /// @param test  called as uint32_t test(const Columns&, position, count). Bit k of the result says whether the box at
 ///              position + k passes. Bit k is 0 for k >= count and for k >= kWidth.
 template <class Test, class Visit>
@@ -32,14 +32,25 @@ void visitTier(const LevelSet& set, int tier, std::uint32_t begin, std::uint32_t
   }
 }
 
-/// Calls visit(number) for each level of a set whose bounds pass the test, in ascending order. Visits every level if
-/// the set has no bounds.
+/// Calls visit(number) for each box of the first tier that passes the test, in ascending order. Visits every level if
+/// the set has no tiers.
 template <class Test, class Visit>
 inline void visitLevels(const LevelSet& set, const Test& test, const Visit& visit) {
   if (set.tier_count > 0) {
     return visitTier(set, set.tier_count - 1, 0, set.tiers[set.tier_count - 1].count, test, visit);
   }
   for (std::uint32_t number = 0; number < set.count; ++number) visit(number);
+}
+
+/// A range of positions of boxes in a level.
+struct Passage {
+  std::uint32_t begin, end;
+};
+
+/// Returns the positions of the boxes in box `number` of the first tier of a set with `per_box` > 0.
+inline Passage passageOf(const LevelSet& set, std::uint32_t number) {
+  const std::uint32_t begin = number * set.per_box, end = set.levels->end;
+  return {begin, end - begin < set.per_box ? end : begin + set.per_box};
 }
 
 }  // namespace

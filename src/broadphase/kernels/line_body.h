@@ -26,16 +26,15 @@ constexpr double kEndless = 1e300;  // [cells] stands for infinity
 struct Track {
   double from, step, below, above, last;
 
-  /// Returns the cells whose boxes a line between `low` and `high` can touch. The indices are not rounded yet.
-  Span cellsBetween(double low, double high) const { return Simd::twoOf(low - above, -(high + below)); }
+  /// Returns the cells whose boxes a line between the coordinates a and b can touch. The indices are not rounded yet.
+  /// Has no branches, because they would be mispredicted.
+  Span cellsBetween(double a, double b) const {
+    return Simd::plus(Simd::least(Simd::twoOf(a, -a), Simd::twoOf(b, -b)), Simd::twoOf(-above, -below));
+  }
   /// Limits a span to the cells that exist: the lowest is at most `last`, the highest at least 0.
   Span within(Span cells) const { return Simd::least(cells, Simd::twoOf(last, 0.0)); }
   /// Returns the cells whose boxes the line can touch anywhere.
-  Span whole() const {
-    const double to = from + step;
-    const Span cells = step > 0.0 ? cellsBetween(from, to) : cellsBetween(to, from);
-    return within(Simd::greatest(cells, Simd::twoOf(0.0, -last)));
-  }
+  Span whole() const { return within(Simd::greatest(cellsBetween(from, from + step), Simd::twoOf(0.0, -last))); }
 };
 
 inline Track trackOf(const Line& line, const Level& level, int axis) {
@@ -64,15 +63,10 @@ class Crossing {
     const double enter = on.from - slope * (passing.from + passing.below);
     const double leave = on.from - slope * (passing.from - 1.0 - passing.above);
     per_cell_ = Simd::twoOf(slope, -slope);
-    if (slope > 0.0) {
-      zero_ = on.cellsBetween(enter, leave);
-      before_ = Simd::twoOf(-kEndless, 0.0);
-      after_ = Simd::twoOf(0.0, -kEndless);
-    } else {
-      zero_ = slope < 0.0 ? on.cellsBetween(leave, enter) : Simd::twoOf(-kEndless, -kEndless);
-      before_ = Simd::twoOf(0.0, -kEndless);
-      after_ = Simd::twoOf(-kEndless, 0.0);
-    }
+    zero_ = slope == 0.0 ? Simd::twoOf(-kEndless, -kEndless) : on.cellsBetween(enter, leave);
+    const double up = slope > 0.0 ? kEndless : 0.0;
+    before_ = Simd::twoOf(-up, up - kEndless);
+    after_ = Simd::twoOf(up - kEndless, -up);
   }
 
   /// Returns the part of `cells` that the line can touch while it passes the cell with index `passed` of the other
@@ -90,11 +84,6 @@ class Crossing {
   double last_;
   Span zero_, per_cell_;  // the span in cell 0, and its change from each cell to the next
   Span before_, after_;   // added in the first cell and in the last cell, because these cells extend to infinity
-};
-
-/// The range of positions of the boxes in the cells of a row that a line passes.
-struct Passage {
-  std::uint32_t begin, end;
 };
 
 /// Writes the positions of the boxes in the passages that may touch the line.
@@ -157,7 +146,11 @@ void along(const LevelSet* set, const Line* line, PositionSink* sink) {
       [&filter](const Columns& bounds, std::uint32_t j, std::uint32_t count) {
         return onLine(filter, bounds, j, count);
       },
-      [&](std::uint32_t number) { searchLevel(levels[number], *line, filter, found); });
+      [&](std::uint32_t number) {
+        if (set->per_box == 0) return searchLevel(levels[number], *line, filter, found);
+        const Passage passage = passageOf(*set, number);
+        searchPassages(*levels, filter, &passage, 1, found);
+      });
   found.close();
 }
 

@@ -27,7 +27,7 @@ struct LineFilter {
   Simd::Lanes step[3], twice_from[3], width[3], slack[3];  // twice_from: [m] twice the start of the line
 };
 
-inline double magnitude(double value) { return value < 0.0 ? -value : value; }
+inline double magnitude(double value) { return __builtin_fabs(value); }
 
 /// Returns a float that is slightly less than `value`.
 inline float floatBelow(double value) {
@@ -51,9 +51,10 @@ inline LineFilter filterOf(const Line& line) {
   for (int axis = 0; axis < 3; ++axis) {
     const double step = line.step[axis] * scale;
     width[axis] = magnitude(step) * 1.00001;
-    const double from = line.from[axis], to = from + line.step[axis];
-    filter.min[axis] = Simd::lanesOf(floatBelow((from < to ? from : to) - line.around));
-    filter.max[axis] = Simd::lanesOf(floatAbove((from < to ? to : from) + line.around));
+    const double ends[2] = {line.from[axis], line.from[axis] + line.step[axis]};
+    const int up = line.step[axis] > 0.0 ? 1 : 0;  // used as an index, because a branch would be mispredicted
+    filter.min[axis] = Simd::lanesOf(floatBelow(ends[1 - up] - line.around));
+    filter.max[axis] = Simd::lanesOf(floatAbove(ends[up] + line.around));
     filter.step[axis] = Simd::lanesOf(static_cast<float>(step));
     filter.width[axis] = Simd::lanesOf(static_cast<float>(width[axis]));
     filter.twice_from[axis] = Simd::lanesOf(static_cast<float>(2.0 * line.from[axis]));

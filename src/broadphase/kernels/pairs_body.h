@@ -171,7 +171,7 @@ std::uint32_t __attribute__((noinline))
 searchBlocks(const Level& level, std::uint32_t begin, std::uint32_t end, Output<Pair>& out) {
   constexpr std::uintptr_t kMany = 2 * sizeof(Pair);  // output of a block that has not many hits [bytes]
   const Level l = level;
-  const bool is_one_row = l.grid.last[l.grid.axes[1]] == 0.0f && l.grid.last[l.grid.axes[2]] == 0.0f;
+  const bool is_one_row = l.grid.rows == 1;
   Output<Pair> found = out;  // a local copy, which the compiler can keep in registers
   alignas(64) BlockCells cells;
   alignas(64) std::int32_t left[kBlock];

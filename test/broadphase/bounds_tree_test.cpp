@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "src/broadphase/hgrid/level_bounds.h"
+#include "src/broadphase/hgrid/bounds_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -34,12 +34,12 @@ std::vector<kernels::Level> levelsAlongAWalk(Random& random, std::size_t count) 
   return levels;
 }
 
-class LevelBoundsOf : public testing::TestWithParam<std::size_t> {};
+class BoundsTreeOf : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(LevelBoundsOf, LevelsFindsThoseThatOverlapABox) {
+TEST_P(BoundsTreeOf, LevelsFindsThoseThatOverlapABox) {
   Random random(static_cast<unsigned>(GetParam()) + 1);
   const std::vector<kernels::Level> levels = levelsAlongAWalk(random, GetParam());
-  LevelBounds bounds;
+  BoundsTree bounds;
   bounds.reserve(levels.size());
   bounds.set(levels);
   const kernels::LevelSet set = bounds.over(levels);
@@ -52,7 +52,7 @@ TEST_P(LevelBoundsOf, LevelsFindsThoseThatOverlapABox) {
       if (test(levels[number].around)) expected.push_back(number);
     }
     found += expected.size();
-    bounds.visit(test, [&visited](std::uint32_t number) { visited.push_back(number); });
+    bounds.visit(test, [&visited](std::uint32_t number, const kernels::Box&) { visited.push_back(number); });
     ASSERT_EQ(visited, expected);
     for (const Isa isa : kIsas) {
       if (!isSupported(isa)) continue;
@@ -67,11 +67,41 @@ TEST_P(LevelBoundsOf, LevelsFindsThoseThatOverlapABox) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, LevelBoundsOf, testing::Values(0, 1, 2, 15, 16, 17, 31, 255, 256, 257, 5000));
+INSTANTIATE_TEST_SUITE_P(Sizes, BoundsTreeOf, testing::Values(0, 1, 2, 15, 16, 17, 31, 255, 256, 257, 5000));
 
-TEST(LevelBounds, WithoutTiersLeadToEveryLevel) {
+TEST(BoundsTree, BlocksFitTheirBoxes) {
+  for (const std::uint32_t count : {1u, 31u, 32u, 33u, 511u, 512u, 513u, 20000u}) {
+    SCOPED_TRACE(count);
+    Random random(count);
+    std::vector<float> bounds(6 * std::size_t{count});
+    for (float& bound : bounds) bound = static_cast<float>(random.uniform(-9, 9));
+    kernels::Level level{};
+    level.bounds = bounds.data();
+    level.stride = count;
+    level.end = count;
+    BoundsTree tree;
+    tree.reserveBlocks(count);
+    tree.setBlocks(level);
+    std::uint32_t blocks = 0;
+    tree.visit([](const kernels::Box&) { return true; },
+               [&](std::uint32_t number, const kernels::Box& box) {
+                 ASSERT_EQ(number, blocks++);
+                 const auto begin = static_cast<std::ptrdiff_t>(number * BoundsTree::kPerBlock);
+                 const auto end = std::min<std::ptrdiff_t>(begin + BoundsTree::kPerBlock, count);
+                 for (std::ptrdiff_t axis = 0; axis < 3; ++axis) {
+                   const auto min = bounds.begin() + axis * std::ptrdiff_t{count},
+                              max = min + 3 * std::ptrdiff_t{count};
+                   EXPECT_EQ(box.min[axis], *std::min_element(min + begin, min + end));
+                   EXPECT_EQ(box.max[axis], *std::max_element(max + begin, max + end));
+                 }
+               });
+    EXPECT_EQ(blocks, (count + BoundsTree::kPerBlock - 1) / BoundsTree::kPerBlock);
+  }
+}
+
+TEST(BoundsTree, WithoutTiersLeadToEveryLevel) {
   const std::vector<kernels::Level> levels(3);
-  const kernels::LevelSet set = {levels.data(), 3, nullptr, 0};
+  const kernels::LevelSet set = {levels.data(), 3, nullptr, 0, 0};
   const kernels::Box query{};
   for (const Isa isa : kIsas) {
     if (!isSupported(isa)) continue;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "broadphase/hgrid/level_bounds.h"
+#include "broadphase/hgrid/bounds_tree.h"
+
+#include <Eigen/Core>
 
 #include "geometry/infinity.h"
 
@@ -12,28 +14,57 @@ constexpr kernels::Box kEmpty = {{kFloatInfinity, kFloatInfinity, kFloatInfinity
 
 std::size_t boxesAbove(std::size_t boxes) { return (boxes + kernels::Tier::kFan - 1) / kernels::Tier::kFan; }
 
+/// Returns a box that contains `count` successive boxes.
+/// @tparam kCount  the same number if it is constant, else Eigen::Dynamic
+template <int kCount>
+kernels::Box aroundSome(const kernels::Columns& boxes, std::size_t begin, Eigen::Index count) {
+  using Values = Eigen::Map<const Eigen::Array<float, kCount, 1>>;
+  kernels::Box box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.min[axis] = Values(boxes.bounds + axis * boxes.stride + begin, count).minCoeff();
+    box.max[axis] = Values(boxes.bounds + (axis + 3) * boxes.stride + begin, count).maxCoeff();
+  }
+  return box;
+}
+
 }  // namespace
 
-std::size_t LevelBounds::valuesFor(std::size_t levels) {
+std::size_t BoundsTree::valuesFor(std::size_t boxes) {
   std::size_t values = 0;
-  for (std::size_t boxes = levels;; boxes = boxesAbove(boxes)) {
+  for (;; boxes = boxesAbove(boxes)) {
     values += 6 * (boxes + kReadBeyond);
     if (boxes <= kernels::Tier::kFan) return values;
   }
 }
 
-void LevelBounds::reserve(std::size_t levels) { bounds_.reserve(valuesFor(levels)); }
+void BoundsTree::reserve(std::size_t levels) { bounds_.reserve(valuesFor(levels)); }
 
-void LevelBounds::set(const std::vector<kernels::Level>& levels) {
-  bounds_.assign(levels.empty() ? 0 : valuesFor(levels.size()), 0.0f);
+void BoundsTree::set(const std::vector<kernels::Level>& levels) {
+  per_box_ = 0;
+  build(levels.size(), [&levels](std::size_t number) { return levels[number].around; });
+}
+
+void BoundsTree::setBlocks(const kernels::Level& level) {
+  per_box_ = kPerBlock;
+  build((level.end + kPerBlock - 1) / kPerBlock, [&level](std::size_t number) {
+    const std::size_t begin = number * kPerBlock, count = std::min<std::size_t>(kPerBlock, level.end - begin);
+    return count == kPerBlock ? aroundSome<kPerBlock>(level, begin, kPerBlock)
+                              : aroundSome<Eigen::Dynamic>(level, begin, static_cast<Eigen::Index>(count));
+  });
+}
+
+/// Builds all tiers. @param box_of  returns a box of the first tier by its number
+template <class BoxOf>
+void BoundsTree::build(std::size_t boxes, const BoxOf& box_of) {
+  bounds_.assign(boxes == 0 ? 0 : valuesFor(boxes), 0.0f);
   tier_count_ = 0;
   float* to = bounds_.data();
-  for (std::size_t boxes = levels.size(); boxes > 0; boxes = boxesAbove(boxes)) {
+  for (; boxes > 0; boxes = boxesAbove(boxes)) {
     const std::size_t stride = boxes + kReadBeyond;
     for (std::size_t number = 0; number < boxes; ++number) {
       kernels::Box box = kEmpty;
       if (tier_count_ == 0) {
-        box = levels[number].around;
+        box = box_of(number);
       } else {
         const kernels::Tier& below = tiers_[static_cast<std::size_t>(tier_count_ - 1)];
         const auto first = static_cast<std::uint32_t>(number) * kernels::Tier::kFan;
