@@ -40,11 +40,13 @@ inline void countIn(Keying& k, std::size_t i, std::uint32_t level, Simd::Quad mi
 
 /// Visits the boxes in the order of the last sort. This is nearly the order of their cells. So counts and copies are
 /// written almost sequentially. Only the boxes are read at random places, by id. So they are prefetched.
-void key(Keying* keying) {
-  constexpr int kMostLevels = 17;
-  Keying& k = *keying;
+/// @tparam kOneLevel  whether there is one level; then its longest sides stay in a register, which is faster
+template <bool kOneLevel>
+void keyLevels(Keying& k) {
+  constexpr int kMostLevels = kOneLevel ? 1 : 17;
+  const int levels = kOneLevel ? 1 : k.levels;
   Simd::Quad largest[kMostLevels], lower = Simd::quadOf(k.lower), upper = Simd::quadOf(k.upper);
-  for (int level = 0; level < k.levels; ++level) largest[level] = Simd::quadOf(k.sizes + 4 * level);
+  for (int level = 0; level < levels; ++level) largest[level] = Simd::quadOf(k.sizes + 4 * level);
   for (std::size_t i = k.begin; i < k.end; ++i) {
     const Box& box = fetched(k, i);
     if (k.copies != nullptr) k.copies[i] = box;
@@ -52,17 +54,36 @@ void key(Keying* keying) {
     lower = Simd::least(lower, min);
     upper = Simd::greatest(upper, min);
     int level = 0;
-    if (k.levels > 1) {
+    if (!kOneLevel) {
       const float side = Simd::greatestOfThree(size);
-      while (level + 1 < k.levels && side > k.sides[level]) ++level;
+      while (level + 1 < levels && side > k.sides[level]) ++level;
     }
     largest[level] = Simd::greatest(largest[level], size);
     countIn(k, i, static_cast<std::uint32_t>(level), min);
   }
-  for (int level = 0; level < k.levels; ++level) Simd::store(largest[level], k.sizes + 4 * level);
+  for (int level = 0; level < levels; ++level) Simd::store(largest[level], k.sizes + 4 * level);
   Simd::store(lower, k.lower);
   Simd::store(upper, k.upper);
 }
+
+void key(Keying* keying) { keying->levels == 1 ? keyLevels<true>(*keying) : keyLevels<false>(*keying); }
+
+/// The longest sides of a level's boxes, and the bounds of their minimum corners.
+struct LevelCensus {
+  LevelCensus(const Keying& k, std::uint32_t number)
+      : level(number),
+        size(Simd::quadOf(k.sizes + 4 * std::size_t{number})),
+        low(Simd::quadOf(k.corners + 8 * std::size_t{number})),
+        high(Simd::quadOf(k.corners + 8 * std::size_t{number} + 4)) {}
+  void store(Keying& k) const {
+    Simd::store(size, k.sizes + 4 * std::size_t{level});
+    Simd::store(low, k.corners + 8 * std::size_t{level});
+    Simd::store(high, k.corners + 8 * std::size_t{level} + 4);
+  }
+
+  std::uint32_t level;
+  Simd::Quad size, low, high;
+};
 
 /// Returns whether the region contains a minimum corner.
 inline bool isIn(const Region& region, const float* corner) {
@@ -74,10 +95,12 @@ inline bool isIn(const Region& region, const float* corner) {
 }
 
 /// Works like key(), but for several regions. First tries the region of the box before, because successive boxes in
-/// the order of the last sort are nearly always in the same region.
+/// the order of the last sort are nearly always in the same region. For the same reason, the census of the level of the
+/// box before is kept in registers.
 void keyRegions(Keying* keying) {
   Keying& k = *keying;
   const Region* region = k.regions;
+  LevelCensus census(k, 0);
   for (std::size_t i = k.begin; i < k.end; ++i) {
     const Box& box = fetched(k, i);
     if (k.copies != nullptr) k.copies[i] = box;
@@ -95,13 +118,16 @@ void keyRegions(Keying* keying) {
       const std::uint32_t last = level + region->levels - 1;
       while (level < last && side > k.sides[level]) ++level;
     }
-    float* const sizes = k.sizes + 4 * static_cast<std::size_t>(level);
-    float* const corners = k.corners + 8 * static_cast<std::size_t>(level);
-    Simd::store(Simd::greatest(Simd::quadOf(sizes), size), sizes);
-    Simd::store(Simd::least(Simd::quadOf(corners), min), corners);
-    Simd::store(Simd::greatest(Simd::quadOf(corners + 4), min), corners + 4);
+    if (level != census.level) {
+      census.store(k);
+      census = LevelCensus(k, level);
+    }
+    census.size = Simd::greatest(census.size, size);
+    census.low = Simd::least(census.low, min);
+    census.high = Simd::greatest(census.high, min);
     countIn(k, i, level, min);
   }
+  census.store(k);
 }
 
 }  // namespace
