@@ -16,9 +16,10 @@ namespace {
 using Vector = std::array<double, 3>;
 
 // Costs [ns] in the estimates below. They were measured on one machine. Only their ratios matter.
-constexpr double kPerBox = 10.0, kPerBoxOfOneRow = 4.0, kPerFollower = 0.375,
-                 kPerFollowerOfOneRow = 0.8;  // in its own row
+constexpr double kPerBox = 10.0, kPerFollower = 0.375;               // a follower: a later box of the same row
+constexpr double kPerBoxOfOneRow = 4.0, kPerFollowerOfOneRow = 0.8;  // if all cells are one row
 constexpr double kPerRow = 3.0, kPerAskingBox = 4.0, kPerAskedRow = 6.0, kPerTest = 3.0, kPerCell = 0.15;
+constexpr double kSmallCells = 1.8;  // how many times the estimate is too low for cells smaller than the largest box
 constexpr double kLanes = 8.0;  // boxes per test; one value for all instruction sets, so that all make the same plan
 constexpr std::size_t kWorthSampling = 256;  // boxes; in a smaller region, the window contains all boxes
 constexpr double kMostCellsPerBox = 1.0;     // must be an integer for CellPlan::mostCells()
@@ -95,8 +96,9 @@ Cells bestCellsOf(const Census& level, const Window& window) {
   const auto [x, y, z] = window.axes;
   const double widest = std::max({level.largest[y], level.largest[z], 1e-30});
   Cells best;
-  for (const double factor : {1.0, 1.4, 2.0, 3.0, 4.0, 6.0, 10.0, 20.0, 50.0, 200.0, 1e3, 1e4}) {
-    const Cells cells = cellsOf(level, window, factor * widest);
+  for (const double factor : {0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 4.0, 6.0, 10.0, 20.0, 50.0, 200.0, 1e3, 1e4}) {
+    Cells cells = cellsOf(level, window, factor * widest);
+    if (factor < 1.0) cells.cost *= kSmallCells;
     if (cells.cost < best.cost) best = cells;
   }
   // The boxes may be so sparse that all these edges give too many cells. Then the number of rows determines the edge.

@@ -49,7 +49,7 @@ struct CellPlan {
 /// - Boxes are divided into size classes by their longest side. From one class to the next, the largest possible side
 ///   grows by the factor GridScale::kRatio. Each class has its own level, or shares a level with other classes if that
 ///   costs less.
-/// - The edge of the cells is one of several multiples of the longest box side, from 1 to 10000.
+/// - The edge of the cells is one of several multiples of the longest box side, from 1/4 to 10000.
 /// - If few boxes are close to each other along one axis, all boxes share one level, which is one row of cells along
 /// this
 ///   axis.
