@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "hgrid_proximity/broadphase/isa.h"
@@ -34,14 +35,14 @@ std::vector<kernels::Level> levelsAlongAWalk(Random& random, std::size_t count) 
   return levels;
 }
 
-class BoundsTreeOf : public testing::TestWithParam<std::size_t> {};
+class BoundsTreeSizes : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(BoundsTreeOf, LevelsFindsThoseThatOverlapABox) {
+TEST_P(BoundsTreeSizes, FindsTheLevelsThatOverlapABox) {
   Random random(static_cast<unsigned>(GetParam()) + 1);
   const std::vector<kernels::Level> levels = levelsAlongAWalk(random, GetParam());
   BoundsTree bounds;
-  bounds.reserve(levels.size());
-  bounds.set(levels);
+  bounds.reserveLevels(levels.size());
+  bounds.setLevels(levels);
   const kernels::LevelSet set = bounds.over(levels);
   std::size_t found = 0;
   for (int i = 0; i < 200; ++i) {
@@ -67,9 +68,9 @@ TEST_P(BoundsTreeOf, LevelsFindsThoseThatOverlapABox) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, BoundsTreeOf, testing::Values(0, 1, 2, 15, 16, 17, 31, 255, 256, 257, 5000));
+INSTANTIATE_TEST_SUITE_P(Sizes, BoundsTreeSizes, testing::Values(0, 1, 2, 15, 16, 17, 31, 255, 256, 257, 5000));
 
-TEST(BoundsTree, BlocksFitTheirBoxes) {
+TEST(BoundsTree, EachLeafIsTheBoundsOfItsBoxes) {
   for (const std::uint32_t count : {1u, 31u, 32u, 33u, 511u, 512u, 513u, 20000u}) {
     SCOPED_TRACE(count);
     Random random(count);
@@ -80,14 +81,14 @@ TEST(BoundsTree, BlocksFitTheirBoxes) {
     level.stride = count;
     level.end = count;
     BoundsTree tree;
-    tree.reserveBlocks(count);
-    tree.setBlocks(level);
-    std::uint32_t blocks = 0;
+    tree.reserveBoxes(count);
+    tree.setBoxes(level);
+    std::uint32_t leaves = 0;
     tree.visit([](const kernels::Box&) { return true; },
                [&](std::uint32_t number, const kernels::Box& box) {
-                 ASSERT_EQ(number, blocks++);
-                 const auto begin = static_cast<std::ptrdiff_t>(number * BoundsTree::kPerBlock);
-                 const auto end = std::min<std::ptrdiff_t>(begin + BoundsTree::kPerBlock, count);
+                 ASSERT_EQ(number, leaves++);
+                 const auto begin = static_cast<std::ptrdiff_t>(number * BoundsTree::kPerLeaf);
+                 const auto end = std::min<std::ptrdiff_t>(begin + BoundsTree::kPerLeaf, count);
                  for (std::ptrdiff_t axis = 0; axis < 3; ++axis) {
                    const auto min = bounds.begin() + axis * std::ptrdiff_t{count},
                               max = min + 3 * std::ptrdiff_t{count};
@@ -95,11 +96,11 @@ TEST(BoundsTree, BlocksFitTheirBoxes) {
                    EXPECT_EQ(box.max[axis], *std::max_element(max + begin, max + end));
                  }
                });
-    EXPECT_EQ(blocks, (count + BoundsTree::kPerBlock - 1) / BoundsTree::kPerBlock);
+    EXPECT_EQ(leaves, (count + BoundsTree::kPerLeaf - 1) / BoundsTree::kPerLeaf);
   }
 }
 
-TEST(BoundsTree, WithoutTiersLeadToEveryLevel) {
+TEST(LevelSet, WithoutTiersEveryLevelIsVisited) {
   const std::vector<kernels::Level> levels(3);
   const kernels::LevelSet set = {levels.data(), 3, nullptr, 0, 0};
   const kernels::Box query{};

@@ -23,9 +23,9 @@ void expectEachJobOnce(Workers& workers, std::size_t count) {
 }
 
 /// Each of the first `threads` jobs waits until every thread has a job. Thus every thread runs exactly one of them.
-class Meeting {
+class MeetingPoint {
  public:
-  explicit Meeting(const Workers& workers) : expected_(workers.threads()) {}
+  explicit MeetingPoint(const Workers& workers) : expected_(workers.threads()) {}
   void attend() {
     ++arrived_;
     while (arrived_ < expected_) std::this_thread::yield();
@@ -74,7 +74,7 @@ TEST(Workers, AnExceptionOnAnyThreadReachesTheCaller) {
     const auto count = static_cast<std::size_t>(workers.threads());
     for (std::size_t bad = 0; bad < count; ++bad) {
       SCOPED_TRACE("thread " + std::to_string(bad) + " of " + std::to_string(count));
-      Meeting meeting(workers);
+      MeetingPoint meeting(workers);
       EXPECT_THROW(workers.run(count,
                                [&](std::size_t, std::size_t thread) {
                                  meeting.attend();
@@ -102,7 +102,7 @@ TEST(Workers, AnExceptionOnAllThreadsReachesTheCallerOnce) {
 TEST(Workers, NoJobRunsAnyMoreWhenTheCallerSeesTheException) {
   Workers workers(4);
   for (int round = 0; round < 50; ++round) {
-    Meeting meeting(workers);
+    MeetingPoint meeting(workers);
     std::atomic<bool> thrown{false};
     std::atomic<int> inside{0};
     std::atomic<std::uint64_t> steps{0};

@@ -14,10 +14,10 @@ constexpr kernels::Box kEmpty = {{kFloatInfinity, kFloatInfinity, kFloatInfinity
 
 std::size_t boxesAbove(std::size_t boxes) { return (boxes + kernels::Tier::kFan - 1) / kernels::Tier::kFan; }
 
-/// Returns a box that contains `count` successive boxes.
-/// @tparam kCount  the same number if it is constant, else Eigen::Dynamic
+/// Returns the smallest box that contains `count` successive boxes.
+/// @tparam kCount  `count`, if it is known when this is compiled (the loops are faster then), else Eigen::Dynamic
 template <int kCount>
-kernels::Box aroundSome(const kernels::Columns& boxes, std::size_t begin, Eigen::Index count) {
+kernels::Box boundsOf(const kernels::Columns& boxes, std::size_t begin, Eigen::Index count) {
   using Values = Eigen::Map<const Eigen::Array<float, kCount, 1>>;
   kernels::Box box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -29,42 +29,42 @@ kernels::Box aroundSome(const kernels::Columns& boxes, std::size_t begin, Eigen:
 
 }  // namespace
 
-std::size_t BoundsTree::valuesFor(std::size_t boxes) {
+/// Returns the size of bounds_ for this number of leaves.
+std::size_t BoundsTree::valuesFor(std::size_t leaves) {
   std::size_t values = 0;
-  for (;; boxes = boxesAbove(boxes)) {
+  for (std::size_t boxes = leaves;; boxes = boxesAbove(boxes)) {
     values += 6 * (boxes + kReadBeyond);
     if (boxes <= kernels::Tier::kFan) return values;
   }
 }
 
-void BoundsTree::reserve(std::size_t levels) { bounds_.reserve(valuesFor(levels)); }
-
-void BoundsTree::set(const std::vector<kernels::Level>& levels) {
-  per_box_ = 0;
+void BoundsTree::setLevels(const std::vector<kernels::Level>& levels) {
+  per_leaf_ = 0;
   build(levels.size(), [&levels](std::size_t number) { return levels[number].around; });
 }
 
-void BoundsTree::setBlocks(const kernels::Level& level) {
-  per_box_ = kPerBlock;
-  build((level.end + kPerBlock - 1) / kPerBlock, [&level](std::size_t number) {
-    const std::size_t begin = number * kPerBlock, count = std::min<std::size_t>(kPerBlock, level.end - begin);
-    return count == kPerBlock ? aroundSome<kPerBlock>(level, begin, kPerBlock)
-                              : aroundSome<Eigen::Dynamic>(level, begin, static_cast<Eigen::Index>(count));
+void BoundsTree::setBoxes(const kernels::Level& level) {
+  per_leaf_ = kPerLeaf;
+  build(leavesFor(level.end), [&level](std::size_t number) {
+    const std::size_t begin = number * kPerLeaf, count = std::min<std::size_t>(kPerLeaf, level.end - begin);
+    return count == kPerLeaf ? boundsOf<kPerLeaf>(level, begin, kPerLeaf)
+                             : boundsOf<Eigen::Dynamic>(level, begin, static_cast<Eigen::Index>(count));
   });
 }
 
-/// Builds all tiers. @param box_of  returns a box of the first tier by its number
-template <class BoxOf>
-void BoundsTree::build(std::size_t boxes, const BoxOf& box_of) {
-  bounds_.assign(boxes == 0 ? 0 : valuesFor(boxes), 0.0f);
+/// Builds all tiers.
+/// @param leaf_at  called as kernels::Box leaf_at(number)
+template <class LeafAt>
+void BoundsTree::build(std::size_t leaves, const LeafAt& leaf_at) {
+  bounds_.assign(leaves == 0 ? 0 : valuesFor(leaves), 0.0f);
   tier_count_ = 0;
   float* to = bounds_.data();
-  for (; boxes > 0; boxes = boxesAbove(boxes)) {
+  for (std::size_t boxes = leaves; boxes > 0; boxes = boxesAbove(boxes)) {
     const std::size_t stride = boxes + kReadBeyond;
     for (std::size_t number = 0; number < boxes; ++number) {
       kernels::Box box = kEmpty;
       if (tier_count_ == 0) {
-        box = box_of(number);
+        box = leaf_at(number);
       } else {
         const kernels::Tier& below = tiers_[static_cast<std::size_t>(tier_count_ - 1)];
         const auto first = static_cast<std::uint32_t>(number) * kernels::Tier::kFan;

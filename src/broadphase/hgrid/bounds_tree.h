@@ -12,35 +12,35 @@
 
 namespace hgrid {
 
-/// A hierarchy of the bounds of a layer's levels, or of the boxes of one level. With it, a search quickly finds the
-/// few levels or boxes that it needs.
+/// A hierarchy of the bounds of a layer's levels, or of the bounds of the boxes of one level. A search uses it to find
+/// quickly the few levels or boxes that it needs.
 ///
 /// The hierarchy is a tree of bounding volumes (Ericson 2005, chapter 6), stored in tiers. The boxes of the first tier
-/// are the bounds of the levels, or each contains kPerBlock successive boxes of the level. Each box of a higher tier
-/// contains 16 successive boxes of the tier below. These boxes are near each other, because successive levels belong to
-/// neighboring regions, and successive boxes of a row are in neighboring cells.
+/// are called leaves. Each leaf is the bounds of a level, or contains up to kPerLeaf successive boxes of the one level.
+/// Each box of a higher tier contains 16 successive boxes of the tier below. These boxes are near each other, because
+/// successive levels belong to neighboring regions, and successive boxes of a row are in neighboring cells.
 class BoundsTree {
  public:
-  /// How many boxes of a level a box of the first tier contains, see setBlocks().
-  static constexpr std::uint32_t kPerBlock = 32;
+  /// Largest number of a level's boxes in one leaf, see setBoxes().
+  static constexpr std::uint32_t kPerLeaf = 32;
 
-  /// Allocates the memory that set() needs for this number of levels.
-  void reserve(std::size_t levels);
-  /// Allocates the memory that setBlocks() needs for a level with this number of boxes.
-  void reserveBlocks(std::size_t boxes) { reserve((boxes + kPerBlock - 1) / kPerBlock); }
-  /// Computes the hierarchy for these levels. Allocates nothing after reserve() for at least as many levels.
-  void set(const std::vector<kernels::Level>& levels);
-  /// Computes the hierarchy for the boxes of a level that begins at position 0. Allocates nothing after
-  /// reserveBlocks() for at least as many boxes. Boxes that are withdrawn later stay in the bounds.
-  void setBlocks(const kernels::Level& level);
+  /// Allocates the memory that setLevels() needs for this number of levels.
+  void reserveLevels(std::size_t levels) { bounds_.reserve(valuesFor(levels)); }
+  /// Allocates the memory that setBoxes() needs for a level with this number of boxes.
+  void reserveBoxes(std::size_t boxes) { bounds_.reserve(valuesFor(leavesFor(boxes))); }
+  /// Computes the hierarchy for these levels. Allocates nothing after reserveLevels() for at least as many levels.
+  void setLevels(const std::vector<kernels::Level>& levels);
+  /// Computes the hierarchy for the boxes of a level that begins at position 0. Allocates nothing after reserveBoxes()
+  /// for at least as many boxes. Boxes that are withdrawn later stay in the bounds.
+  void setBoxes(const kernels::Level& level);
 
-  /// Returns `levels` together with the hierarchy. They must be the levels that were passed to set(), or only the level
-  /// that was passed to setBlocks().
+  /// Returns `levels` together with the hierarchy. They must be the levels that were passed to setLevels(). After
+  /// setBoxes(), they must be exactly the level that was passed there.
   kernels::LevelSet over(const std::vector<kernels::Level>& levels) const {
-    return {levels.data(), static_cast<std::uint32_t>(levels.size()), tiers_.data(), tier_count_, per_box_};
+    return {levels.data(), static_cast<std::uint32_t>(levels.size()), tiers_.data(), tier_count_, per_leaf_};
   }
 
-  /// Calls visit(index, box) for each box of the first tier that passes the test, in ascending order.
+  /// Calls visit(index, box) for each leaf that passes the test, in ascending order.
   /// @param test  called as bool test(const kernels::Box&). If it accepts a box, it must accept every box that contains
   ///              this box.
   template <class Test, class Visit>
@@ -52,17 +52,18 @@ class BoundsTree {
   std::size_t bytes() const { return bounds_.capacity() * sizeof(float); }
 
  private:
-  static constexpr int kMostTiers = 8;            // enough for 16^8 boxes in the first tier
+  static constexpr int kMostTiers = 8;            // enough for 16^8 leaves
   static constexpr std::size_t kReadBeyond = 16;  // floats that a kernel may read beyond the last box
 
-  static std::size_t valuesFor(std::size_t boxes);
+  static std::size_t leavesFor(std::size_t boxes) { return (boxes + kPerLeaf - 1) / kPerLeaf; }
+  static std::size_t valuesFor(std::size_t leaves);
   static kernels::Box boxAt(const kernels::Tier& tier, std::uint32_t number) {
     const float* const bound = tier.bounds + number;
     return {{bound[0], bound[tier.stride], bound[2 * tier.stride]},
             {bound[3 * tier.stride], bound[4 * tier.stride], bound[5 * tier.stride]}};
   }
-  template <class BoxOf>
-  void build(std::size_t boxes, const BoxOf& box_of);
+  template <class LeafAt>
+  void build(std::size_t leaves, const LeafAt& leaf_at);
 
   template <class Test, class Visit>
   void visitTier(int tier, std::uint32_t begin, std::uint32_t end, const Test& test, const Visit& visit) const {
@@ -82,7 +83,7 @@ class BoundsTree {
   std::vector<float> bounds_;  // [m] the boxes of all tiers
   std::array<kernels::Tier, kMostTiers> tiers_{};
   int tier_count_ = 0;
-  std::uint32_t per_box_ = 0;  // boxes of the level in each box of the first tier; 0: it is the bounds of a level
+  std::uint32_t per_leaf_ = 0;  // number of a level's boxes in a leaf; 0: each leaf is the bounds of a level
 };
 
 }  // namespace hgrid

@@ -13,7 +13,7 @@ BoxSample::BoxSample(const std::vector<Aabb>& boxes, const ProxyId* ids, std::si
     for (std::size_t axis = 0; axis < 3; ++axis) sorted_[axis][i] = box.min[static_cast<Eigen::Index>(axis)];
   }
   for (auto& values : sorted_) std::sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(size_));
-  boxes_per_sample_ = static_cast<double>(count) / static_cast<double>(size_);
+  boxes_per_sampled_box_ = static_cast<double>(count) / static_cast<double>(size_);
 }
 
 double BoxSample::followers(std::size_t axis, double length) const {
@@ -23,7 +23,7 @@ double BoxSample::followers(std::size_t axis, double length) const {
     while (end < size_ && values[end] <= static_cast<double>(values[i]) + length) ++end;
     sum += end - i - 1;
   }
-  return boxes_per_sample_ * static_cast<double>(sum) / static_cast<double>(size_);
+  return boxes_per_sampled_box_ * static_cast<double>(sum) / static_cast<double>(size_);
 }
 
 }  // namespace hgrid

@@ -10,27 +10,29 @@
 
 namespace hgrid {
 
-/// The minimum corners of some of the boxes, sorted along each axis. Estimates how all boxes are distributed along one
-/// axis, also if they are spread unevenly. Allocates nothing.
+/// A sample of boxes. It stores their minimum corners, sorted along each axis, and estimates from them how all boxes
+/// are distributed along an axis, even if they are spread unevenly. Allocates nothing.
 class BoxSample {
  public:
-  /// Takes a sample of the boxes of `count` ids, at least one.
+  /// Samples at most 256 of the boxes of `count` ids. `count` must be at least 1.
   BoxSample(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count);
 
-  /// Returns the coordinate [m] below which 1 % of the minimum corners are.
+  /// Estimates the coordinate [m] below which 1 % of the minimum corners are. For fewer than 100 boxes, returns the
+  /// lowest of them.
   double low(std::size_t axis) const { return sorted_[axis][size_ / 100]; }
-  /// Returns the coordinate [m] above which 1 % of the minimum corners are.
+  /// Estimates the coordinate [m] above which 1 % of the minimum corners are. For fewer than 100 boxes, returns the
+  /// highest of them.
   double high(std::size_t axis) const { return sorted_[axis][size_ - 1 - size_ / 100]; }
-  /// Estimates how many other boxes have their minimum within `length` [m] after the minimum of a box. Averages over
-  /// all boxes.
+  /// Estimates how many boxes follow a box along the axis, on average: their minimum is at most `length` [m] above the
+  /// minimum of the box.
   double followers(std::size_t axis, double length) const;
 
  private:
-  static constexpr std::size_t kMost = 256;
+  static constexpr std::size_t kMost = 256;  // largest number of sampled boxes
 
   std::array<std::array<float, kMost>, 3> sorted_;
   std::size_t size_ = 0;
-  double boxes_per_sample_;
+  double boxes_per_sampled_box_;
 };
 
 }  // namespace hgrid

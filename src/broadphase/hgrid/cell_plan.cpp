@@ -17,9 +17,12 @@ using Vector = std::array<double, 3>;
 
 // Costs [ns] in the estimates below. They were measured on one machine. Only their ratios matter.
 constexpr double kPerBox = 10.0, kPerFollower = 0.375;               // a follower: a later box of the same row
-constexpr double kPerBoxOfOneRow = 4.0, kPerFollowerOfOneRow = 0.8;  // if all cells are one row
+constexpr double kPerBoxInOneRow = 4.0, kPerFollowerInOneRow = 0.8;  // if all cells are one row
 constexpr double kPerRow = 3.0, kPerAskingBox = 4.0, kPerAskedRow = 6.0, kPerTest = 3.0, kPerCell = 0.15;
-constexpr double kSmallCells = 1.8;  // how many times the estimate is too low for cells smaller than the largest box
+// If boxes extend over several cells, the estimate is too low by this factor, because it counts only one more row on
+// each side. The value was measured.
+constexpr double kSmallCellFactor = 1.8;
+constexpr double kMostCellsAlongBox = 12.0;  // along a row, at most so many cells per longest box
 constexpr double kLanes = 8.0;  // boxes per test; one value for all instruction sets, so that all make the same plan
 constexpr std::size_t kWorthSampling = 256;  // boxes; in a smaller region, the window contains all boxes
 constexpr double kMostCellsPerBox = 1.0;     // must be an integer for CellPlan::mostCells()
@@ -51,7 +54,9 @@ struct Window {
 };
 
 /// The cells of a level: edge [m] and count for each axis, and the estimated cost [ns] to find the level's pairs.
+/// `axes` is as in Window.
 struct Cells {
+  std::array<std::size_t, 3> axes{0, 1, 2};
   Vector edge{};
   std::array<double, 3> count{};
   double cost = std::numeric_limits<double>::infinity();
@@ -65,6 +70,7 @@ double cellsAlong(double length, double edge) { return std::floor(length / edge)
 Cells cellsOf(const Census& level, const Window& window, double across) {
   const auto [x, y, z] = window.axes;
   Cells cells;
+  cells.axes = window.axes;
   cells.edge[y] = cells.edge[z] = across;
   cells.count[y] = cellsAlong(window.length(y), across);
   cells.count[z] = cellsAlong(window.length(z), across);
@@ -73,7 +79,7 @@ Cells cellsOf(const Census& level, const Window& window, double across) {
   if (rows > most) return cells;  // there would be too many cells; the cost remains infinite
   // If fewer than two cells per row are allowed, the edge is longer than the window, so a row has one cell.
   const double along = most / rows - 1.0;
-  cells.edge[x] = std::max(across / 12.0, window.length(x) / (along < 1.0 ? 0.5 : along));
+  cells.edge[x] = std::max(across / kMostCellsAlongBox, window.length(x) / (along < 1.0 ? 0.5 : along));
   if (!(cells.edge[x] > 0.0)) cells.edge[x] = 1.0;
   cells.count[x] = cellsAlong(window.length(x), cells.edge[x]);
 
@@ -85,9 +91,9 @@ Cells cellsOf(const Census& level, const Window& window, double across) {
   const double per_meter = level.boxes / rows / std::max(window.length(x), cells.edge[x]);
   const double own = per_meter * (level.mean(x) + 0.5 * cells.edge[x]);
   const double other = per_meter * (level.mean(x) + level.largest[x] + cells.edge[x]);
-  const auto tests = [](double candidates) { return kPerTest * (1.0 + candidates / kLanes); };
-  const double per_box = kPerBox + kPerFollower * std::min(own, level.boxes) +
-                         other_rows * (kPerRow + tests(std::min(other, level.boxes)));
+  const double tests = 1.0 + std::min(other, level.boxes) / kLanes;
+  const double per_box =
+      kPerBox + kPerFollower * std::min(own, level.boxes) + other_rows * (kPerRow + kPerTest * tests);
   cells.cost = level.boxes * per_box + kPerCell * cells.count[x] * rows;
   return cells;
 }
@@ -98,7 +104,7 @@ Cells bestCellsOf(const Census& level, const Window& window) {
   Cells best;
   for (const double factor : {0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 4.0, 6.0, 10.0, 20.0, 50.0, 200.0, 1e3, 1e4}) {
     Cells cells = cellsOf(level, window, factor * widest);
-    if (factor < 1.0) cells.cost *= kSmallCells;
+    if (factor < 1.0) cells.cost *= kSmallCellFactor;
     if (cells.cost < best.cost) best = cells;
   }
   // The boxes may be so sparse that all these edges give too many cells. Then the number of rows determines the edge.
@@ -109,23 +115,22 @@ Cells bestCellsOf(const Census& level, const Window& window) {
   return best;
 }
 
-/// Plans one row of cells for all boxes, along the best axis, and makes it the first of window.axes. Then a search only
-/// tests each box with those that follow it (the sweep along one axis, Ericson 2005, 7.5). Unlike the other estimates,
-/// the cost also holds for boxes that are spread unevenly.
-Cells oneRowOf(const Census& all, const BoxSample& sample, Window& window) {
+/// Plans one row of cells for all boxes, along the cheapest axis. A search then tests each box only against the boxes
+/// that begin before it ends, as in a sweep along one axis (Ericson 2005, 7.5). The cost is estimated from the sample,
+/// so it also holds for boxes that are spread unevenly.
+Cells oneRowOf(const Census& all, const BoxSample& sample, const Window& window) {
   Cells best;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Cells cells;
-    for (std::size_t i = 0; i < 3; ++i) cells.edge[i] = 1.0 + 2.0 * window.length(i);
+    cells.axes = {axis, (axis + 1) % 3, (axis + 2) % 3};
+    for (std::size_t i = 0; i < 3; ++i) cells.edge[i] = 1.0 + 2.0 * window.length(i);  // longer than the window
     cells.count.fill(1.0);
     const double length = window.length(axis), most = window.mostCells(all.boxes) - 1.0;
-    cells.edge[axis] = std::max({all.largest[axis] / 12.0, length / most, 1e-30});
+    cells.edge[axis] = std::max({all.largest[axis] / kMostCellsAlongBox, length / most, 1e-30});
     cells.count[axis] = cellsAlong(length, cells.edge[axis]);
     const double followers = sample.followers(axis, all.mean(axis) + 0.5 * cells.edge[axis]);
-    cells.cost = all.boxes * (kPerBoxOfOneRow + kPerFollowerOfOneRow * followers) + kPerCell * cells.count[axis];
-    if (!(cells.cost < best.cost)) continue;
-    best = cells;
-    window.axes = {axis, (axis + 1) % 3, (axis + 2) % 3};
+    cells.cost = all.boxes * (kPerBoxInOneRow + kPerFollowerInOneRow * followers) + kPerCell * cells.count[axis];
+    if (cells.cost < best.cost) best = cells;
   }
   return best;
 }
@@ -177,25 +182,28 @@ void append(CellPlan& plan, const Census& census, const Window& window, const Ce
     plan.largest[number][i] = static_cast<float>(census.largest[i]);
     plan.mean_sides[number][i] = static_cast<float>(census.mean(i));
   }
-  const auto [x, y, z] = window.axes;
+  const auto [x, y, z] = cells.axes;
   grid.row = static_cast<std::int32_t>(cells.count[x]);
   grid.slab = grid.row * static_cast<std::int32_t>(cells.count[y]);
   grid.rows = static_cast<std::int32_t>(cells.count[y] * cells.count[z]);
   grid.steps[x] = 1;
   grid.steps[y] = grid.row;
   grid.steps[z] = grid.slab;
-  for (std::size_t i = 0; i < 3; ++i) grid.axes[i] = static_cast<std::int32_t>(window.axes[i]);
+  for (std::size_t i = 0; i < 3; ++i) grid.axes[i] = static_cast<std::int32_t>(cells.axes[i]);
   plan.sides[number] = static_cast<float>(side);
 }
 
-}  // namespace
+/// The statistics of some boxes.
+struct BoxStatistics {
+  static constexpr std::size_t kSizes = GridScale::kLevels + 1;
 
-float longestSide(const Aabb& box) { return (box.max - box.min).maxCoeff(); }
+  std::array<Census, kSizes> sizes;  // per size class, smallest boxes first
+  Vector lower, upper;               // [m] bounds of the minimum corners
+};
 
-CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge,
-                 bool is_region) {
-  std::array<Census, GridScale::kLevels + 1> sizes;
-  Vector lower, upper;
+BoxStatistics statisticsOf(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge) {
+  BoxStatistics statistics;
+  Vector &lower = statistics.lower, &upper = statistics.upper;
   lower.fill(kInfinity);
   upper.fill(-kInfinity);
   for (std::size_t k = 0; k < count; ++k) {
@@ -205,7 +213,7 @@ CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t
     for (const double side = longestSide(box); number < GridScale::kLevels && side > edge; ++number) {
       edge *= GridScale::kRatio;
     }
-    Census& level = sizes[number];
+    Census& level = statistics.sizes[number];
     level.boxes += 1.0;
     for (std::size_t i = 0; i < 3; ++i) {
       const double low = box.min[static_cast<Eigen::Index>(i)];
@@ -216,34 +224,24 @@ CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t
       upper[i] = std::max(upper[i], low);
     }
   }
-  CellPlan plan;
-  plan.boxes = count;
-  if (count == 0) return plan;
-  std::optional<BoxSample> sample;
-  if (!is_region || count >= kWorthSampling) sample.emplace(boxes, ids, count);
-  Window window = sample ? windowOf(*sample, lower, upper) : Window{lower, upper};
-  window.spare_cells = static_cast<double>(is_region ? CellPlan::kSpareCellsOfRegion : CellPlan::kSpareCells);
-  Census all;
-  for (const Census& level : sizes) all.add(level);
-  window.axes = axesFor(window, all);
-  for (std::size_t i = 0; i < 3; ++i) {
-    plan.lower[i] = static_cast<float>(lower[i]);
-    plan.upper[i] = static_cast<float>(upper[i]);
-    plan.windowed = plan.windowed || window.low[i] > lower[i] || window.high[i] < upper[i];
-  }
+  return statistics;
+}
 
-  // Goes through the size classes from the coarsest to the finest. Each class either shares the level of the class
-  // before, or has a level of its own. The boxes of a level of its own are tested against the coarser levels. The
-  // cheaper way is taken.
-  std::array<Census, GridScale::kLevels + 1> finer;  // per size class: this class and all finer ones
+/// Plans the levels, the coarsest first, and returns the estimated cost [ns] to find all pairs.
+///
+/// Goes through the size classes from the coarsest to the finest. Each class either shares the level of the class
+/// before, or has a level of its own. The boxes of a level of its own are tested against the coarser levels. The
+/// cheaper way is taken.
+double planLevels(CellPlan& plan, const BoxStatistics& statistics, const Window& window, double finest_edge) {
+  const std::array<Census, BoxStatistics::kSizes>& sizes = statistics.sizes;
+  std::array<Census, BoxStatistics::kSizes> finer;  // per size class: this class and all finer ones
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     if (i > 0) finer[i] = finer[i - 1];
     finer[i].add(sizes[i]);
   }
   Census coarse;
   double coarse_side = 0.0, cost = 0.0;
-  const auto close = [&] {
-    const Cells cells = bestCellsOf(coarse, window);
+  const auto close = [&](const Cells& cells) {
     append(plan, coarse, window, cells, coarse_side);
     cost += cells.cost;
     coarse = Census{};
@@ -254,37 +252,70 @@ CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t
       Census together = coarse;
       together.add(sizes[i]);
       const Cells alone = bestCellsOf(coarse, window), shared = bestCellsOf(together, window);
-      double apart = alone.cost + bestCellsOf(sizes[i], window).cost + costOfAsking(finer[i], coarse, alone, window);
+      const double asking = costOfAsking(finer[i], coarse, alone, window);
+      const double apart = alone.cost + bestCellsOf(sizes[i], window).cost + asking;
       double joined = shared.cost;
       if (i > 0 && finer[i - 1].boxes > 0.0) joined += costOfAsking(finer[i - 1], together, shared, window);
       if (apart < joined) {
-        cost += costOfAsking(finer[i], coarse, alone, window);
-        close();
+        cost += asking;
+        close(alone);
       }
     }
     if (coarse.boxes == 0.0) coarse_side = finest_edge * std::pow(GridScale::kRatio, static_cast<double>(i));
     coarse.add(sizes[i]);
   }
-  close();
-  if (!is_region) {
-    const Cells one_row = oneRowOf(all, *sample, window);
-    if (one_row.cost < cost) {
-      plan.levels = 0;
-      append(plan, all, window, one_row, coarse_side);
-    }
-  }
-  const auto finestFirst = [&plan](auto& values) {
+  close(bestCellsOf(coarse, window));
+  return cost;
+}
+
+/// Reverses the levels, so that the finest is the first, and numbers the cells of all levels.
+void finish(CellPlan& plan) {
+  const auto reverse = [&plan](auto& values) {
     std::reverse(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(plan.levels));
   };
-  finestFirst(plan.grids);
-  finestFirst(plan.sides);
-  finestFirst(plan.largest);
-  finestFirst(plan.mean_sides);
+  reverse(plan.grids);
+  reverse(plan.sides);
+  reverse(plan.largest);
+  reverse(plan.mean_sides);
   for (std::size_t level = 0; level < plan.levels; ++level) {
     const kernels::Grid& grid = plan.grids[level];
     plan.first_cells[level] = plan.cells;
     plan.cells += static_cast<std::uint32_t>(grid.slab) * (static_cast<std::uint32_t>(grid.last[grid.axes[2]]) + 1);
   }
+}
+
+}  // namespace
+
+float longestSide(const Aabb& box) { return (box.max - box.min).maxCoeff(); }
+
+CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge,
+                 bool is_region) {
+  CellPlan plan;
+  plan.boxes = count;
+  if (count == 0) return plan;
+  const BoxStatistics statistics = statisticsOf(boxes, ids, count, finest_edge);
+  const Vector &lower = statistics.lower, &upper = statistics.upper;
+  std::optional<BoxSample> sample;
+  if (!is_region || count >= kWorthSampling) sample.emplace(boxes, ids, count);
+  Window window = sample ? windowOf(*sample, lower, upper) : Window{lower, upper};
+  window.spare_cells = static_cast<double>(is_region ? CellPlan::kSpareCellsOfRegion : CellPlan::kSpareCells);
+  Census all;
+  for (const Census& level : statistics.sizes) all.add(level);
+  window.axes = axesFor(window, all);
+  for (std::size_t i = 0; i < 3; ++i) {
+    plan.lower[i] = static_cast<float>(lower[i]);
+    plan.upper[i] = static_cast<float>(upper[i]);
+    plan.windowed = plan.windowed || window.low[i] > lower[i] || window.high[i] < upper[i];
+  }
+  const double cost = planLevels(plan, statistics, window, finest_edge);
+  if (!is_region) {
+    const Cells one_row = oneRowOf(all, *sample, window);
+    if (one_row.cost < cost) {
+      plan.levels = 0;
+      append(plan, all, window, one_row, *std::max_element(all.largest.begin(), all.largest.end()));
+    }
+  }
+  finish(plan);
   return plan;
 }
 

@@ -49,14 +49,16 @@ struct CellPlan {
 /// - Boxes are divided into size classes by their longest side. From one class to the next, the largest possible side
 ///   grows by the factor GridScale::kRatio. Each class has its own level, or shares a level with other classes if that
 ///   costs less.
-/// - The edge of the cells is one of several multiples of the longest box side, from 1/4 to 10000.
-/// - If few boxes are close to each other along one axis, all boxes share one level, which is one row of cells along
-/// this
-///   axis.
+/// - Across the rows, the edge of a cell is one of several multiples, from 1/4 to 10000, of the longest box side on
+///   these two axes. If all of them give too many cells, the number of cells determines the edge. Along the rows, cells
+///   are shorter.
+/// - If each box overlaps only few others along one axis, all boxes share one level, and its cells are one row along
+///   this axis.
 ///
 /// @param finest_edge  [m] longest box side of the smallest size class
-/// @param is_region  whether the boxes are those of one of several regions, so that they are spread evenly, except for
-///   a few
+/// @param is_region  true if the layer has several regions, and the boxes are those of one of them. Then fewer spare
+///   cells are allowed, and one row of cells is not considered. If the boxes are few, the window contains all of their
+///   minimum corners.
 CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge,
                  bool is_region = false);
 

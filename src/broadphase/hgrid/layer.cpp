@@ -89,8 +89,8 @@ void Layer::reserve(std::size_t count, std::size_t ids, const Machine& machine) 
   scratch.keyings.reserve(threads);
   scratch.sums.reserve(threads * threads);
   levels_.reserve(CellPlan::kMostLevels);
-  level_bounds_.reserve(CellPlan::kMostLevels);
-  block_bounds_.reserveBlocks(count);
+  level_bounds_.reserveLevels(CellPlan::kMostLevels);
+  box_bounds_.reserveBoxes(count);
   extendTo(other_ids_, count + kReadBeyond);
   if (extendTo(ids_, count + kReadBeyond)) point();
   if (extendTo(start_, cells + 1)) point();
@@ -107,7 +107,7 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
     levels_.clear();
     occupancy_.clear();
     is_one_row_ = false;
-    return level_bounds_.set(levels_);
+    return level_bounds_.setLevels(levels_);
   }
   SortScratch& scratch = *machine.scratch;
   const std::size_t threads = threadsFor(count_, machine);
@@ -151,7 +151,7 @@ bool Layer::divide(const std::vector<Aabb>& boxes, double finest_edge, const Mac
     scratch.corners.reserve(threads * 8 * plan_.levels());
     growTo(scratch.counts, (threads - 1) * plan_.cells());
     levels_.reserve(plan_.levels());
-    level_bounds_.reserve(plan_.levels());
+    level_bounds_.reserveLevels(plan_.levels());
     occupancy_.reserve();
     growTo(start_, plan_.cells() + std::size_t{1});
   } catch (const std::bad_alloc&) {
@@ -307,9 +307,9 @@ void Layer::describe(const SortScratch& scratch) {
     }
   }
   point();
-  level_bounds_.set(levels_);
+  level_bounds_.setLevels(levels_);
   is_one_row_ = levels_.size() == 1 && levels_.front().grid.rows == 1;
-  if (is_one_row_) block_bounds_.setBlocks(levels_.front());
+  if (is_one_row_) box_bounds_.setBoxes(levels_.front());
   if (plan_.isDivided()) {
     occupancy_.set(levels_);
   } else {
@@ -337,7 +337,7 @@ void Layer::withdraw(std::uint32_t position) {
 std::size_t Layer::bytes() const {
   return (ids_.capacity() + other_ids_.capacity() + start_.capacity()) * sizeof(std::uint32_t) +
          bounds_.capacity() * sizeof(float) + levels_.capacity() * sizeof(kernels::Level) + level_bounds_.bytes() +
-         block_bounds_.bytes() + occupancy_.bytes() + plan_.bytes();
+         box_bounds_.bytes() + occupancy_.bytes() + plan_.bytes();
 }
 
 void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
@@ -384,20 +384,21 @@ void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
     require(level.end == position, "a level ends where its last cell ends");
   }
   require(position == count_, "every box has a position");
-  if (!isOneRow()) return;
-  block_bounds_.visit([](const kernels::Box&) { return true; },
-                      [&](std::uint32_t block, const kernels::Box& bounds) {
-                        const std::uint32_t begin = block * BoundsTree::kPerBlock;
-                        const auto end = std::min(begin + BoundsTree::kPerBlock, static_cast<std::uint32_t>(count_));
-                        for (std::uint32_t i = begin; i < end; ++i) {
-                          if (isWithdrawn(i)) continue;
-                          const Aabb box = boxAt(i);
-                          for (int axis = 0; axis < 3; ++axis) {
-                            require(bounds.min[axis] <= box.min[axis] && box.max[axis] <= bounds.max[axis],
-                                    "a box is within the bounds of its block");
-                          }
-                        }
-                      });
+  if (isOneRow()) checkBoxBounds();
+}
+
+/// Requires that each box is within the bounds of its leaf.
+void Layer::checkBoxBounds() const {
+  const auto check = [this](std::uint32_t leaf, const kernels::Box& bounds) {
+    const std::uint32_t begin = leaf * BoundsTree::kPerLeaf, end = begin + BoundsTree::kPerLeaf;
+    for (std::uint32_t i = begin; i < std::min(end, static_cast<std::uint32_t>(count_)); ++i) {
+      const Aabb box = boxAt(i);
+      const Eigen::Map<const Eigen::Array3f> min(bounds.min), max(bounds.max);
+      if (!isWithdrawn(i) && !((min <= box.min.array()).all() && (box.max.array() <= max).all()))
+        throw std::logic_error("HGrid: this invariant is violated: a box is within the bounds of its leaf");
+    }
+  };
+  box_bounds_.visit([](const kernels::Box&) { return true; }, check);
 }
 
 }  // namespace hgrid

@@ -78,13 +78,13 @@ class Layer {
   const RegionTree& regions() const { return plan_.tree(); }
   /// Returns whether the layer has one level with one row of cells.
   bool isOneRow() const { return is_one_row_; }
-  /// Returns the hierarchy of bounds for queries: that of the boxes if isOneRow(), else that of the levels.
-  const BoundsTree& bounds() const { return is_one_row_ ? block_bounds_ : level_bounds_; }
+  /// Returns the bounds for queries: those of the boxes if isOneRow(), else those of the levels.
+  const BoundsTree& bounds() const { return is_one_row_ ? box_bounds_ : level_bounds_; }
   /// Says where the layer certainly has no boxes.
   const Occupancy& occupancy() const { return occupancy_; }
   /// Returns the levels with a hierarchy of their bounds.
   kernels::LevelSet levelSet() const { return level_bounds_.over(levels_); }
-  /// Returns the levels with bounds(), for queries.
+  /// Returns what a query searches: the levels with bounds().
   kernels::LevelSet querySet() const { return bounds().over(levels_); }
   /// Returns the allocated memory [bytes].
   std::size_t bytes() const;
@@ -98,6 +98,7 @@ class Layer {
   double crowding(const Machine& machine, std::size_t threads) const;
   void scatter(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads);
   void describe(const SortScratch& scratch);
+  void checkBoxBounds() const;
   void widen(std::size_t count);
   void point();
   std::uint32_t* countsOf(std::size_t thread, std::size_t threads, const Machine& machine);
@@ -112,7 +113,7 @@ class Layer {
   std::vector<std::uint32_t> start_;  // position of the first box of each cell; at last, the end of the last cell
   std::vector<kernels::Level> levels_;
   BoundsTree level_bounds_;
-  BoundsTree block_bounds_;  // of the boxes, if the layer has one row
+  BoundsTree box_bounds_;  // bounds of successive boxes; valid only if is_one_row_
   bool is_one_row_ = false;
   Occupancy occupancy_;
 };

@@ -177,11 +177,12 @@ double likelyRadius(const kernels::Level& level, std::size_t count) {
   return 0.5 * std::cbrt(volume);
 }
 
-/// Estimates the radius [m] of a sphere that contains `count` boxes of a row, from the bounds of a block of them.
-double likelyRadius(const kernels::Box& block, std::size_t count) {
+/// Estimates the radius [m] of a sphere that contains `count` boxes of a layer with one row. `leaf` is the bounds of
+/// some of them.
+double likelyRadius(const kernels::Box& leaf, std::size_t count) {
   double longest = 1e-30;
-  for (int i = 0; i < 3; ++i) longest = std::max(longest, static_cast<double>(block.max[i]) - block.min[i]);
-  return longest * std::max(1.0, static_cast<double>(count) / BoundsTree::kPerBlock);
+  for (int i = 0; i < 3; ++i) longest = std::max(longest, static_cast<double>(leaf.max[i]) - leaf.min[i]);
+  return longest * std::max(1.0, static_cast<double>(count) / BoundsTree::kPerLeaf);
 }
 
 /// Returns the distance [m] of a point from a box, or 0 if the point is inside.
@@ -199,8 +200,8 @@ struct SphereSearch {
   double radius = std::numeric_limits<double>::infinity();  // [m] estimate: a sphere of this radius has enough boxes
   double step = radius;                                     // [m] how much the radius grows if there were too few boxes
 
-  /// Takes an estimate, if this makes the sphere smaller: a sphere of the radius `within` [m] contains enough boxes,
-  /// if its center is among them. They are `away` [m] from the point.
+  /// Uses an estimate about some boxes, if it makes the sphere smaller. `away` [m] is the distance of these boxes from
+  /// the point. A sphere of radius `within` [m] whose center is among these boxes contains enough of them.
   void consider(double within, double away) {
     if (!(away + within < radius)) return;
     radius = away + within;

@@ -22,9 +22,9 @@ inline std::int32_t cellOf(float value, const Grid& grid, int axis) {
 }
 
 /// Finds the boxes in a passage that overlap a box.
-inline void searchPassage(const Level& level, const Simd::Box& query, Passage passage, Output<std::uint32_t>& found) {
-  for (std::uint32_t j = passage.begin; j < passage.end; j += Simd::kWidth) {
-    found.wrote(Simd::storePositions(found.room(), j, Simd::overlaps(query, level, j, passage.end - j)));
+inline void searchRange(const Level& level, const Simd::Box& query, PositionRange range, Output<std::uint32_t>& found) {
+  for (std::uint32_t j = range.begin; j < range.end; j += Simd::kWidth) {
+    found.wrote(Simd::storePositions(found.room(), j, Simd::overlaps(query, level, j, range.end - j)));
   }
 }
 
@@ -41,7 +41,7 @@ inline void searchLevel(const Level& level, const Box& box, const Simd::Box& que
   for (std::int32_t z = low[grid.axes[2]]; z <= high[grid.axes[2]]; ++z) {
     for (std::int32_t y = low[grid.axes[1]]; y <= high[grid.axes[1]]; ++y) {
       const std::int32_t row = z * grid.slab + y * grid.row;
-      searchPassage(l, query, {l.start[row + first], l.start[row + last + 1]}, found);
+      searchRange(l, query, {l.start[row + first], l.start[row + last + 1]}, found);
     }
   }
 }
@@ -51,14 +51,14 @@ void overlapping(const LevelSet* set, const Box* box, PositionSink* sink) {
   const Simd::Box query = Simd::boxOf(b);
   const Level* const levels = set->levels;
   Output<std::uint32_t> found(sink);
-  visitLevels(
+  visitLeaves(
       *set,
       [&query](const Columns& bounds, std::uint32_t j, std::uint32_t count) {
         return Simd::overlaps(query, bounds, j, count);
       },
       [&](std::uint32_t number) {
-        if (set->per_box == 0) return searchLevel(levels[number], b, query, found);
-        searchPassage(*levels, query, passageOf(*set, number), found);
+        if (set->per_leaf == 0) return searchLevel(levels[number], b, query, found);
+        searchRange(*levels, query, rangeOf(*set, number), found);
       });
   found.close();
 }
@@ -66,7 +66,7 @@ void overlapping(const LevelSet* set, const Box* box, PositionSink* sink) {
 void reaching(const LevelSet* set, const Box* box, PositionSink* sink) {
   const Simd::Box query = Simd::boxOf(*box);
   Output<std::uint32_t> found(sink);
-  visitLevels(
+  visitLeaves(
       *set,
       [&query](const Columns& bounds, std::uint32_t j, std::uint32_t count) {
         return Simd::overlaps(query, bounds, j, count);

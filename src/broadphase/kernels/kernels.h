@@ -67,22 +67,23 @@ struct Level : Columns {
   std::uint32_t begin, end;    ///< range of positions of the level's boxes
 };
 
-/// One tier of a hierarchy of boxes. LevelSet says what the boxes of the first tier contain. Box i of any other tier
+/// One tier of a hierarchy of boxes. LevelSet says what the first tier bounds. Box i of any other tier
 /// contains boxes kFan * i .. kFan * i + kFan - 1 of the tier below it.
 struct Tier : Columns {
   static constexpr std::uint32_t kFan = 16;
   std::uint32_t count;  ///< number of boxes
 };
 
-/// Levels to search, and a hierarchy of their bounds, or of the bounds of the boxes of a single level.
+/// Levels to search, and a hierarchy of bounds. The boxes of its first tier are called leaves. They are the bounds of
+/// the levels. If there is only one level, they may be the bounds of its successive boxes instead.
 struct LevelSet {
   const Level* levels;
   std::uint32_t count;
   const Tier* tiers;  ///< each tier except the first bounds the tier before it
   int tier_count;     ///< number of tiers; if it is 0, every level is searched
-  /// If 0, box i of the first tier bounds level i. If not, there is one level, and box i contains its boxes at
-  /// positions per_box * i .. per_box * i + per_box - 1.
-  std::uint32_t per_box;
+  /// 0: leaf i is the bounds of level i. Otherwise there is one level, and leaf i contains the boxes of this level from
+  /// position per_leaf * i on, at most per_leaf of them.
+  std::uint32_t per_leaf;
 };
 
 /// A segment with a radius `around` [m]. A search along it finds the boxes within this distance of the segment.
@@ -153,7 +154,7 @@ struct Kernels {
   /// Finds the overlapping pairs of two levels. Tests the boxes of `asking` at positions begin .. end - 1 against all
   /// boxes of `asked`.
   void (*pairsAcross)(const Level* asking, std::uint32_t begin, std::uint32_t end, const Level* asked, PairSink* sink);
-  /// Finds the levels whose bounds overlap `box`. Writes their indices in ascending order. per_box must be 0.
+  /// Finds the levels whose bounds overlap `box`. Writes their indices in ascending order. per_leaf must be 0.
   void (*reaching)(const LevelSet* set, const Box* box, PositionSink* sink);
   /// Finds the boxes that overlap `box`. Writes their positions, in ascending order within each level.
   void (*overlapping)(const LevelSet* set, const Box* box, PositionSink* sink);

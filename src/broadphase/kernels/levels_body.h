@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Finds the levels that a search needs.
+// Searches the tiers of a LevelSet for the levels, or the ranges of boxes, that a search needs.
 // This is a part of kernels_body.h, which explains the type Simd.
 #pragma once
 
@@ -11,8 +11,8 @@ namespace hgrid {
 namespace kernels {
 namespace {
 
-/// Calls visit(number) for each box of the first tier that passes the test, in ascending order. `number` is its index.
-/// Considers only what is in the boxes begin .. end - 1 of the given tier. Tests kWidth boxes at once.
+/// Calls visit(number) for each leaf that passes the test, in ascending order. `number` is the index of the leaf.
+/// Considers only the boxes begin .. end - 1 of the given tier and the boxes below them. Tests kWidth boxes at once.
 /// @param test  called as uint32_t test(const Columns&, position, count). Bit k of the result says whether the box at
 ///              position + k passes. Bit k is 0 for k >= count and for k >= kWidth.
 template <class Test, class Visit>
@@ -32,10 +32,10 @@ void visitTier(const LevelSet& set, int tier, std::uint32_t begin, std::uint32_t
   }
 }
 
-/// Calls visit(number) for each box of the first tier that passes the test, in ascending order. Visits every level if
-/// the set has no tiers.
+/// Calls visit(number) for each leaf of a set that passes the test, in ascending order. If the set has no tiers, calls
+/// it for every level.
 template <class Test, class Visit>
-inline void visitLevels(const LevelSet& set, const Test& test, const Visit& visit) {
+inline void visitLeaves(const LevelSet& set, const Test& test, const Visit& visit) {
   if (set.tier_count > 0) {
     return visitTier(set, set.tier_count - 1, 0, set.tiers[set.tier_count - 1].count, test, visit);
   }
@@ -43,14 +43,14 @@ inline void visitLevels(const LevelSet& set, const Test& test, const Visit& visi
 }
 
 /// A range of positions of boxes in a level.
-struct Passage {
+struct PositionRange {
   std::uint32_t begin, end;
 };
 
-/// Returns the positions of the boxes in box `number` of the first tier of a set with `per_box` > 0.
-inline Passage passageOf(const LevelSet& set, std::uint32_t number) {
-  const std::uint32_t begin = number * set.per_box, end = set.levels->end;
-  return {begin, end - begin < set.per_box ? end : begin + set.per_box};
+/// Returns the positions of the boxes that a leaf contains. per_leaf of the set must not be 0.
+inline PositionRange rangeOf(const LevelSet& set, std::uint32_t number) {
+  const std::uint32_t begin = number * set.per_leaf, end = set.levels->end;
+  return {begin, end - begin < set.per_leaf ? end : begin + set.per_leaf};
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ constexpr double kEndless = 1e300;  // [cells] stands for infinity
 struct Track {
   double from, step, below, above, last;
 
-  /// Returns the cells whose boxes a line between the coordinates a and b can touch. The indices are not rounded yet.
-  /// Has no branches, because they would be mispredicted.
+  /// Returns the cells whose boxes a line can touch between the coordinates a and b, in any order. The indices are not
+  /// rounded yet. Has no branches, because the sign of a line's direction would be mispredicted.
   Span cellsBetween(double a, double b) const {
     return Simd::plus(Simd::least(Simd::twoOf(a, -a), Simd::twoOf(b, -b)), Simd::twoOf(-above, -below));
   }
@@ -64,9 +64,9 @@ class Crossing {
     const double leave = on.from - slope * (passing.from - 1.0 - passing.above);
     per_cell_ = Simd::twoOf(slope, -slope);
     zero_ = slope == 0.0 ? Simd::twoOf(-kEndless, -kEndless) : on.cellsBetween(enter, leave);
-    const double up = slope > 0.0 ? kEndless : 0.0;
-    before_ = Simd::twoOf(-up, up - kEndless);
-    after_ = Simd::twoOf(up - kEndless, -up);
+    const double endless_if_rising = slope > 0.0 ? kEndless : 0.0, endless_if_not = kEndless - endless_if_rising;
+    before_ = Simd::twoOf(-endless_if_rising, -endless_if_not);
+    after_ = Simd::twoOf(-endless_if_not, -endless_if_rising);
   }
 
   /// Returns the part of `cells` that the line can touch while it passes the cell with index `passed` of the other
@@ -86,14 +86,14 @@ class Crossing {
   Span before_, after_;   // added in the first cell and in the last cell, because these cells extend to infinity
 };
 
-/// Writes the positions of the boxes in the passages that may touch the line.
-void __attribute__((noinline)) searchPassages(const Level& level, const LineFilter& line, const Passage* passages,
-                                              int count, Output<std::uint32_t>& out) {
+/// Writes the positions of the boxes in the ranges that may touch the line.
+void __attribute__((noinline)) searchRanges(const Level& level, const LineFilter& line, const PositionRange* ranges,
+                                            int count, Output<std::uint32_t>& out) {
   const LineFilter filter = line;  // a local copy, which the compiler can keep in registers
   Output<std::uint32_t> found = out;
   for (int i = 0; i < count; ++i) {
-    for (std::uint32_t j = passages[i].begin; j < passages[i].end; j += Simd::kWidth) {
-      found.wrote(Simd::storePositions(found.room(), j, onLine(filter, level, j, passages[i].end - j)));
+    for (std::uint32_t j = ranges[i].begin; j < ranges[i].end; j += Simd::kWidth) {
+      found.wrote(Simd::storePositions(found.room(), j, onLine(filter, level, j, ranges[i].end - j)));
     }
   }
   out = found;
@@ -106,14 +106,14 @@ void __attribute__((noinline)) searchPassages(const Level& level, const LineFilt
 /// add up in a walk from cell to cell (Ericson 2005, 7.4.2). Several rows are searched together, so that the processor
 /// can load one row while it computes another.
 void searchLevel(const Level& level, const Line& line, const LineFilter& filter, Output<std::uint32_t>& found) {
-  constexpr int kPassages = 32;
+  constexpr int kRanges = 32;
   const Level l = level;
   const Grid& grid = l.grid;
   const Track x = trackOf(line, l, grid.axes[0]), y = trackOf(line, l, grid.axes[1]),
               z = trackOf(line, l, grid.axes[2]);
   const Crossing x_in_slab(x, z), y_in_slab(y, z), x_in_row(x, y);
   const Span x_whole = x.whole(), y_whole = y.whole();
-  Passage passages[kPassages];
+  PositionRange ranges[kRanges];
   int count = 0;
   std::int32_t slabs[2], rows[2], cells[2];  // as in Span: index of the lowest, minus the index of the highest
   Simd::store(z.whole(), slabs);
@@ -124,32 +124,32 @@ void searchLevel(const Level& level, const Line& line, const LineFilter& filter,
     for (std::int32_t row = rows[0]; row <= -rows[1]; ++row) {
       Simd::store(x_in_row.within(row, x_here), cells);
       const std::uint32_t* const start = first + row * grid.row;
-      Passage& passage = passages[count];
-      passage.begin = start[cells[0]];
-      passage.end = start[1 - cells[1]];
-      count += passage.begin < passage.end;
-      if (count == kPassages) {
-        searchPassages(l, filter, passages, count, found);
+      PositionRange& range = ranges[count];
+      range.begin = start[cells[0]];
+      range.end = start[1 - cells[1]];
+      count += range.begin < range.end;
+      if (count == kRanges) {
+        searchRanges(l, filter, ranges, count, found);
         count = 0;
       }
     }
   }
-  searchPassages(l, filter, passages, count, found);
+  searchRanges(l, filter, ranges, count, found);
 }
 
 void along(const LevelSet* set, const Line* line, PositionSink* sink) {
   const LineFilter filter = filterOf(*line);
   const Level* const levels = set->levels;
   Output<std::uint32_t> found(sink);
-  visitLevels(
+  visitLeaves(
       *set,
       [&filter](const Columns& bounds, std::uint32_t j, std::uint32_t count) {
         return onLine(filter, bounds, j, count);
       },
       [&](std::uint32_t number) {
-        if (set->per_box == 0) return searchLevel(levels[number], *line, filter, found);
-        const Passage passage = passageOf(*set, number);
-        searchPassages(*levels, filter, &passage, 1, found);
+        if (set->per_leaf == 0) return searchLevel(levels[number], *line, filter, found);
+        const PositionRange range = rangeOf(*set, number);
+        searchRanges(*levels, filter, &range, 1, found);
       });
   found.close();
 }

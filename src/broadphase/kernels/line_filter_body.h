@@ -52,9 +52,9 @@ inline LineFilter filterOf(const Line& line) {
     const double step = line.step[axis] * scale;
     width[axis] = magnitude(step) * 1.00001;
     const double ends[2] = {line.from[axis], line.from[axis] + line.step[axis]};
-    const int up = line.step[axis] > 0.0 ? 1 : 0;  // used as an index, because a branch would be mispredicted
-    filter.min[axis] = Simd::lanesOf(floatBelow(ends[1 - up] - line.around));
-    filter.max[axis] = Simd::lanesOf(floatAbove(ends[up] + line.around));
+    const int highest = line.step[axis] > 0.0 ? 1 : 0;  // an index, because a branch would be mispredicted
+    filter.min[axis] = Simd::lanesOf(floatBelow(ends[1 - highest] - line.around));
+    filter.max[axis] = Simd::lanesOf(floatAbove(ends[highest] + line.around));
     filter.step[axis] = Simd::lanesOf(static_cast<float>(step));
     filter.width[axis] = Simd::lanesOf(static_cast<float>(width[axis]));
     filter.twice_from[axis] = Simd::lanesOf(static_cast<float>(2.0 * line.from[axis]));

@@ -29,8 +29,8 @@ inline void cellsOf(const Level& level, std::uint32_t position, int side, float 
   }
 }
 
-/// Tests box i of `asking` against `left` boxes of `asked` from position `begin` on. This function is always inlined,
-/// because calls would take about a tenth of the time of a search.
+/// Tests box i of `asking` against `left` boxes of `asked` from position `begin` on; `left` is at least 1. This
+/// function is always inlined, because calls would take about a tenth of the time of a search.
 /// @tparam kRare  whether hits are so rare that a branch around their output is predicted well; if false, the output is
 ///                stored unconditionally
 template <bool kRare = false>
@@ -38,7 +38,7 @@ inline __attribute__((always_inline)) void meetRange(const Level& asking, std::u
                                                      std::uint32_t begin, std::uint32_t left, Output<Pair>& found) {
   const Simd::Box box = Simd::boxAt(asking, i);
   const Simd::Id id = Simd::idAt(asking, i);
-  for (;;) {  // mostly one iteration, so checking for an empty range first does not pay
+  for (;;) {  // mostly one iteration
     const std::uint32_t hits = Simd::overlaps(box, asked, begin, left);
     if (!kRare || __builtin_expect(hits != 0, 0)) {
       found.wrote(Simd::storePairs(found.room(), id, asked.id + begin, hits));
@@ -65,19 +65,20 @@ inline void meetRows(const Level& asking, std::uint32_t first, std::uint32_t bit
   }
 }
 
-/// Tests the boxes of a block against the boxes that follow them in their rows of cells. Box first + k is tested
-/// against the next left[k] boxes.
+/// Tests the boxes of a block against their followers: the boxes that follow them in their rows of cells. Box first + k
+/// has left[k] followers, the next left[k] boxes.
 ///
-/// Tests all boxes of the block against their next boxes, then all against the second next, and so on, because these
-/// are successive in memory. When few boxes are left, tests one box after the other: that is faster for a box with many
-/// boxes left.
+/// In step `ahead`, tests each box against the box `ahead` positions after it, kWidth boxes at once. The positions of
+/// these boxes are successive, so they are loaded together. When only few boxes of the block have followers left, tests
+/// the followers of one box after the other, kWidth followers at once.
 /// @param all  bit k: whether the block has box first + k
 template <bool kRare>
 inline __attribute__((always_inline)) void meetFollowing(const Level& level, std::uint32_t first, std::uint32_t all,
                                                          const std::int32_t* left, Output<Pair>& found) {
+  // In the first kNear steps, few boxes are at most kFewNear, then kFewFar. The values were measured.
   constexpr std::uint32_t kNear = 8;
   constexpr int kFewNear = 2, kFewFar = 11;
-  constexpr std::uint32_t kParts = kBlock / Simd::kWidth, kLanes = (1u << Simd::kWidth) - 1u;
+  constexpr std::uint32_t kParts = kBlock / Simd::kWidth;
   Simd::Boxes boxes[kParts];
   for (std::uint32_t part = 0; part < kParts; ++part) boxes[part] = Simd::boxesAt(level, first + part * Simd::kWidth);
   for (std::uint32_t ahead = 1;; ++ahead) {
@@ -93,7 +94,7 @@ inline __attribute__((always_inline)) void meetFollowing(const Level& level, std
     for (std::uint32_t part = 0; part < kParts; ++part) {
       const std::uint32_t i = first + part * Simd::kWidth;
       const std::uint32_t hits =
-          Simd::overlapsEach(boxes[part], level, i + ahead) & (open >> (part * Simd::kWidth)) & kLanes;
+          Simd::overlaps(boxes[part], level, i + ahead, Simd::kWidth) & (open >> (part * Simd::kWidth));
       if (!kRare || __builtin_expect(hits != 0, 0)) {
         found.wrote(Simd::storePairsOfEach(found.room(), level.id + i, level.id + i + ahead, hits));
       }
@@ -103,14 +104,15 @@ inline __attribute__((always_inline)) void meetFollowing(const Level& level, std
 
 inline std::uint32_t bitsBelow(std::uint32_t count) { return count >= kBlock ? 0xffffu : (1u << count) - 1u; }
 
-/// The cells of the boxes of a block. A row of cells is named by the index of its first cell.
+/// The cells that the boxes of a block are tested in. A row of cells is given as the index of its first cell.
 struct BlockCells {
-  std::int32_t x_low[kBlock], x_high[kBlock];      // range of cells in a row, x_high included
-  std::int32_t own_row[kBlock], own_span[kBlock];  // row of the minimum corner, and number of rows after it in the slab
-  std::int32_t low_row[kBlock], low_span[kBlock];  // first row that may have overlapping boxes in a later slab
-  std::int32_t z_span[kBlock];                     // number of later slabs
+  std::int32_t x_low[kBlock], x_high[kBlock];      // cells of (minimum - reach) and of the maximum, in a row
+  std::int32_t own_row[kBlock], own_span[kBlock];  // row of the minimum corner; number of rows after it, in its slab
+  std::int32_t low_row[kBlock], low_span[kBlock];  // the same for (minimum - reach) on y, and the minimum on z
+  std::int32_t z_span[kBlock];                     // number of slabs after the own slab
 
-  inline __attribute__((always_inline)) void find(const Level& level, std::uint32_t first) {
+  /// Computes the cells of the boxes from position `first` on.
+  __attribute__((always_inline)) void compute(const Level& level, std::uint32_t first) {
     const Grid& grid = level.grid;
     const int x = grid.axes[0], y = grid.axes[1], z = grid.axes[2];  // x is the axis of the rows
     alignas(64) std::int32_t y_low[kBlock], y_own[kBlock], y_high[kBlock], z_own[kBlock], z_high[kBlock];
@@ -129,8 +131,8 @@ struct BlockCells {
       z_span[k] = z_high[k] - z_own[k];
     }
   }
-  /// Works like find() if the level has one row. Sets only `x_high` and `own_row`.
-  inline __attribute__((always_inline)) void findInOneRow(const Level& level, std::uint32_t first) {
+  /// Works like compute() if the level has one row. Sets only `x_high` and `own_row`; the others are not needed then.
+  __attribute__((always_inline)) void computeInOneRow(const Level& level, std::uint32_t first) {
     const int x = level.grid.axes[0];
     cellsOf(level, first, 3, 0.0f, level.grid, x, x_high);
     for (std::int32_t& row : own_row) row = 0;
@@ -179,7 +181,12 @@ searchBlocks(const Level& level, std::uint32_t begin, std::uint32_t end, Output<
   for (bool same = true; same && first < end && !found.full(); first += kBlock) {
     const std::uintptr_t before = found.address();
     const std::uint32_t all = bitsBelow(end - first);
-    is_one_row ? cells.findInOneRow(l, first) : cells.find(l, first);
+    if (is_one_row) {
+      cells.computeInOneRow(l, first);
+    } else {
+      cells.compute(l, first);
+    }
+    // The number of followers. It is negative for a withdrawn box, because x_high is 0.
     for (int k = 0; k < kBlock; ++k) {
       left[k] = static_cast<std::int32_t>(l.start[cells.own_row[k] + cells.x_high[k] + 1] - first) - k - 1;
     }

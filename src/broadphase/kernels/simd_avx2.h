@@ -54,9 +54,6 @@ struct SimdAvx2 : SimdSse2 {
     return {{_mm256_loadu_ps(min), _mm256_loadu_ps(min + boxes.stride), _mm256_loadu_ps(min + 2 * boxes.stride)},
             {_mm256_loadu_ps(max), _mm256_loadu_ps(max + boxes.stride), _mm256_loadu_ps(max + 2 * boxes.stride)}};
   }
-  static std::uint32_t overlapsEach(const Boxes& lanes, const Columns& boxes, std::uint32_t j) {
-    return overlaps(lanes, boxes, j, kWidth);
-  }
 
   static std::uint32_t overlaps(const Box& box, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
     const __m256 x =
@@ -113,14 +110,14 @@ struct SimdAvx2 : SimdSse2 {
   }
 
  private:
-  /// Writes the first `count` pairs of a and b.
-  static Pair* storeFirst(Pair* next, __m256i a, __m256i b, int count) {
+  /// Writes the pairs of lanes 0 .. count - 1 of a and b, with the smaller id first. Returns the end of the pairs.
+  static Pair* storeFirst(Pair* to, __m256i a, __m256i b, int count) {
     const __m256i first = _mm256_min_epu32(a, b), second = _mm256_max_epu32(a, b);
     const __m256i low = _mm256_unpacklo_epi32(first, second), high = _mm256_unpackhi_epi32(first, second);
-    auto* to = reinterpret_cast<__m256i*>(next);
-    _mm256_storeu_si256(to, _mm256_permute2x128_si256(low, high, 0x20));
-    if (__builtin_expect(count > 4, 0)) _mm256_storeu_si256(to + 1, _mm256_permute2x128_si256(low, high, 0x31));
-    return next + count;
+    auto* wide = reinterpret_cast<__m256i*>(to);
+    _mm256_storeu_si256(wide, _mm256_permute2x128_si256(low, high, 0x20));
+    if (__builtin_expect(count > 4, 0)) _mm256_storeu_si256(wide + 1, _mm256_permute2x128_si256(low, high, 0x31));
+    return to + count;
   }
   /// Returns the indices of the bits that are 1 in `bits`, in ascending order, then zeros.
   static __m256i lanesIn(std::uint32_t bits) {

@@ -34,9 +34,6 @@ struct SimdAvx512 : SimdSse2 {
     return {{_mm512_loadu_ps(min), _mm512_loadu_ps(min + boxes.stride), _mm512_loadu_ps(min + 2 * boxes.stride)},
             {_mm512_loadu_ps(max), _mm512_loadu_ps(max + boxes.stride), _mm512_loadu_ps(max + 2 * boxes.stride)}};
   }
-  static std::uint32_t overlapsEach(const Boxes& lanes, const Columns& boxes, std::uint32_t j) {
-    return overlaps(lanes, boxes, j, kWidth);
-  }
 
   static std::uint32_t overlaps(const Box& box, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
     // Three independent chains of comparisons are faster than one chain: each comparison takes several cycles.
@@ -87,7 +84,7 @@ struct SimdAvx512 : SimdSse2 {
   }
 
  private:
-  /// Writes the first `count` pairs of a and b.
+  /// Writes the pairs of lanes 0 .. count - 1 of a and b, with the smaller id first. Returns the end of the pairs.
   static Pair* storeFirst(Pair* to, __m512i a, __m512i b, int count) {
     const __m512i first = _mm512_min_epu32(a, b), second = _mm512_max_epu32(a, b);
     _mm512_storeu_si512(

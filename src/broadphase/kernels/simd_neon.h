@@ -68,9 +68,6 @@ struct SimdNeon {
     return {{vld1q_f32(min), vld1q_f32(min + boxes.stride), vld1q_f32(min + 2 * boxes.stride)},
             {vld1q_f32(max), vld1q_f32(max + boxes.stride), vld1q_f32(max + 2 * boxes.stride)}};
   }
-  static std::uint32_t overlapsEach(const Boxes& lanes, const Columns& boxes, std::uint32_t j) {
-    return overlaps(lanes, boxes, j, kWidth);
-  }
 
   static std::uint32_t overlaps(const Box& box, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
     const float *const min = boxes.bounds + j, *const max = min + 3 * boxes.stride;
@@ -159,7 +156,7 @@ struct SimdNeon {
   }
 
  private:
-  /// Writes the first `count` pairs of a and b.
+  /// Writes the pairs of lanes 0 .. count - 1 of a and b, with the smaller id first. Returns the end of the pairs.
   static Pair* storeFirst(Pair* to, uint32x4_t a, uint32x4_t b, int count) {
     const uint32x4_t first = vminq_u32(a, b), second = vmaxq_u32(a, b);
     vst1q_u32(&to->first, vzip1q_u32(first, second));

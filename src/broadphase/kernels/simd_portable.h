@@ -28,7 +28,7 @@ struct SimdPortable {
   struct Boxes {
     float min[3][kWidth], max[3][kWidth];
   };
-  /// Returns the boxes at the positions from i on.
+  /// Returns kWidth boxes, from position i on.
   static Boxes boxesAt(const Columns& boxes, std::uint32_t i) {
     Boxes lanes;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -38,20 +38,6 @@ struct SimdPortable {
       }
     }
     return lanes;
-  }
-  /// Tests each lane against a box of its own. Bit k of the result is 1 if the box in lane k overlaps the box at
-  /// position j + k.
-  static std::uint32_t overlapsEach(const Boxes& lanes, const Columns& boxes, std::uint32_t j) {
-    std::uint32_t bits = 0;
-    for (std::uint32_t k = 0; k < kWidth; ++k) {
-      bool meet = true;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        meet = meet & (boxes.bounds[axis * boxes.stride + j + k] <= lanes.max[axis][k]) &
-               (boxes.bounds[(axis + 3) * boxes.stride + j + k] >= lanes.min[axis][k]);
-      }
-      bits |= static_cast<std::uint32_t>(meet) << k;
-    }
-    return bits;
   }
 
   /// Tests `box` against the boxes at the positions from j on. Bit k of the result is 1 if `box` overlaps the box at
@@ -63,6 +49,21 @@ struct SimdPortable {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         meet = meet & (boxes.bounds[axis * boxes.stride + j + k] <= box.max[axis]) &
                (boxes.bounds[(axis + 3) * boxes.stride + j + k] >= box.min[axis]);
+      }
+      bits |= static_cast<std::uint32_t>(meet) << k;
+    }
+    return bits;
+  }
+
+  /// Tests the box of each lane against another box. Bit k of the result is 1 if the box in lane k overlaps the box at
+  /// position j + k. Bit k is 0 for k >= count and for k >= kWidth.
+  static std::uint32_t overlaps(const Boxes& lanes, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
+    std::uint32_t bits = 0;
+    for (std::uint32_t k = 0; k < kWidth; ++k) {
+      bool meet = k < count;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        meet = meet & (boxes.bounds[axis * boxes.stride + j + k] <= lanes.max[axis][k]) &
+               (boxes.bounds[(axis + 3) * boxes.stride + j + k] >= lanes.min[axis][k]);
       }
       bits |= static_cast<std::uint32_t>(meet) << k;
     }

@@ -37,9 +37,6 @@ struct SimdSse2 {
     return {{_mm_loadu_ps(min), _mm_loadu_ps(min + boxes.stride), _mm_loadu_ps(min + 2 * boxes.stride)},
             {_mm_loadu_ps(max), _mm_loadu_ps(max + boxes.stride), _mm_loadu_ps(max + 2 * boxes.stride)}};
   }
-  static std::uint32_t overlapsEach(const Boxes& lanes, const Columns& boxes, std::uint32_t j) {
-    return overlaps(lanes, boxes, j, kWidth);
-  }
 
   static std::uint32_t overlaps(const Box& box, const Columns& boxes, std::uint32_t j, std::uint32_t count) {
     __m128 meet = _mm_cmple_ps(_mm_loadu_ps(boxes.bounds + j), box.max[0]);

@@ -40,7 +40,7 @@ inline void countIn(Keying& k, std::size_t i, std::uint32_t level, Simd::Quad mi
 
 /// Visits the boxes in the order of the last sort. This is nearly the order of their cells. So counts and copies are
 /// written almost sequentially. Only the boxes are read at random places, by id. So they are prefetched.
-/// @tparam kOneLevel  whether there is one level; then its longest sides stay in a register, which is faster
+/// @tparam kOneLevel  whether there is only one level; then its longest sides stay in a register
 template <bool kOneLevel>
 void keyLevels(Keying& k) {
   constexpr int kMostLevels = kOneLevel ? 1 : 17;
@@ -66,23 +66,29 @@ void keyLevels(Keying& k) {
   Simd::store(upper, k.upper);
 }
 
-void key(Keying* keying) { keying->levels == 1 ? keyLevels<true>(*keying) : keyLevels<false>(*keying); }
+void key(Keying* keying) {
+  if (keying->levels == 1) {
+    keyLevels<true>(*keying);
+  } else {
+    keyLevels<false>(*keying);
+  }
+}
 
 /// The longest sides of a level's boxes, and the bounds of their minimum corners.
 struct LevelCensus {
   LevelCensus(const Keying& k, std::uint32_t number)
       : level(number),
-        size(Simd::quadOf(k.sizes + 4 * std::size_t{number})),
-        low(Simd::quadOf(k.corners + 8 * std::size_t{number})),
-        high(Simd::quadOf(k.corners + 8 * std::size_t{number} + 4)) {}
+        largest(Simd::quadOf(k.sizes + 4 * std::size_t{number})),
+        lower(Simd::quadOf(k.corners + 8 * std::size_t{number})),
+        upper(Simd::quadOf(k.corners + 8 * std::size_t{number} + 4)) {}
   void store(Keying& k) const {
-    Simd::store(size, k.sizes + 4 * std::size_t{level});
-    Simd::store(low, k.corners + 8 * std::size_t{level});
-    Simd::store(high, k.corners + 8 * std::size_t{level} + 4);
+    Simd::store(largest, k.sizes + 4 * std::size_t{level});
+    Simd::store(lower, k.corners + 8 * std::size_t{level});
+    Simd::store(upper, k.corners + 8 * std::size_t{level} + 4);
   }
 
   std::uint32_t level;
-  Simd::Quad size, low, high;
+  Simd::Quad largest, lower, upper;
 };
 
 /// Returns whether the region contains a minimum corner.
@@ -95,8 +101,8 @@ inline bool isIn(const Region& region, const float* corner) {
 }
 
 /// Works like key(), but for several regions. First tries the region of the box before, because successive boxes in
-/// the order of the last sort are nearly always in the same region. For the same reason, the census of the level of the
-/// box before is kept in registers.
+/// the order of the last sort are nearly always in the same region. They are also mostly on the same level. So the
+/// statistics of the current level stay in registers until the level changes.
 void keyRegions(Keying* keying) {
   Keying& k = *keying;
   const Region* region = k.regions;
@@ -122,9 +128,9 @@ void keyRegions(Keying* keying) {
       census.store(k);
       census = LevelCensus(k, level);
     }
-    census.size = Simd::greatest(census.size, size);
-    census.low = Simd::least(census.low, min);
-    census.high = Simd::greatest(census.high, min);
+    census.largest = Simd::greatest(census.largest, size);
+    census.lower = Simd::least(census.lower, min);
+    census.upper = Simd::greatest(census.upper, min);
     countIn(k, i, level, min);
   }
   census.store(k);

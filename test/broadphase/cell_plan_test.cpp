@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "src/broadphase/hgrid/cell_plan.h"
+
+#include <gtest/gtest.h>
+
+#include "src/broadphase/hgrid/box_sample.h"
+#include "test/support/expectations.h"
+
+namespace hgrid {
+namespace {
+
+using test::allIds;
+using test::boxAround;
+using test::Random;
+using test::randomVector;
+
+/// Returns boxes that follow each other in steps of 0.4 m on each axis.
+std::vector<Aabb> diagonal(std::size_t count) {
+  std::vector<Aabb> boxes;
+  for (std::size_t i = 0; i < count; ++i) {
+    boxes.push_back(boxAround(0.4 * double(i) * Eigen::Vector3d::Ones(), {1, 1, 1}));
+  }
+  return boxes;
+}
+
+CellPlan planOf(const std::vector<Aabb>& boxes, bool is_region = false) {
+  return planFor(boxes, allIds(boxes.size()).data(), boxes.size(), 1.0, is_region);
+}
+
+bool hasOneRow(const CellPlan& plan) { return plan.levels == 1 && plan.grids[0].rows == 1; }
+
+TEST(CellPlan, HasOneRowIfFewBoxesOverlapAlongOneAxis) {
+  for (const std::size_t count : {100u, 1500u, 40000u}) EXPECT_TRUE(hasOneRow(planOf(diagonal(count)))) << count;
+}
+
+TEST(CellPlan, HasSeveralRowsIfManyBoxesOverlapAlongEachAxis) {
+  Random random(1);
+  std::vector<Aabb> boxes;
+  for (int i = 0; i < 3000; ++i) boxes.push_back(boxAround(randomVector(random, 0, 20), {1, 1, 1}));
+  EXPECT_FALSE(hasOneRow(planOf(boxes)));
+}
+
+TEST(CellPlan, OfARegionIsNotPlannedAsOneRowOfAllBoxes) { EXPECT_FALSE(hasOneRow(planOf(diagonal(1500), true))); }
+
+TEST(CellPlan, DoesNotDependOnAFewBoxesFarAwayInALargeRegion) {
+  Random random(2);
+  std::vector<Aabb> boxes;
+  for (int i = 0; i < 3000; ++i) boxes.push_back(boxAround(randomVector(random, 0, 20), {1, 1, 1}));
+  const float edge = 1.0f / planOf(boxes, true).grids[0].inverse[1];
+  boxes.push_back(boxAround({1e5, -1e5, 1e5}, {1, 1, 1}));
+  EXPECT_NEAR(1.0f / planOf(boxes, true).grids[0].inverse[1], edge, 0.5 * edge);
+}
+
+TEST(BoxSample, EstimatesHowManyBoxesFollowABox) {
+  for (const std::size_t count : {2u, 99u, 256u, 257u, 511u, 20000u}) {
+    SCOPED_TRACE(count);
+    const std::vector<Aabb> boxes = diagonal(count);
+    const std::vector<ProxyId> ids = allIds(count);
+    const BoxSample sample(boxes, ids.data(), count);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(sample.followers(axis, 0.0), 0.0);
+      // Each box is followed by 1000 boxes within 400 m, except the last ones.
+      const double all = double(count) - 1.0, most = std::min(1000.0, all);
+      const double expected = most - 0.5 * most * (most + 1.0) / double(count);
+      EXPECT_NEAR(sample.followers(axis, 400.1), expected, 0.1 * expected + 1.0);
+    }
+  }
+}
+
+TEST(BoxSample, IsTakenFromTheWholeList) {
+  const std::size_t count = 500;  // less than two boxes per sampled box
+  const std::vector<Aabb> boxes = diagonal(count);
+  const std::vector<ProxyId> ids = allIds(count);
+  const BoxSample sample(boxes, ids.data(), count);
+  EXPECT_NEAR(sample.low(0), boxes.front().min[0], 4.0);
+  EXPECT_NEAR(sample.high(0), boxes.back().min[0], 4.0);
+}
+
+TEST(BoxSample, OfFewBoxesGivesTheirBounds) {
+  const std::vector<Aabb> boxes = diagonal(99);
+  const std::vector<ProxyId> ids = allIds(99);
+  const BoxSample sample(boxes, ids.data(), 99);
+  EXPECT_EQ(float(sample.low(1)), boxes.front().min[1]);
+  EXPECT_EQ(float(sample.high(1)), boxes.back().min[1]);
+}
+
+}  // namespace
+}  // namespace hgrid
