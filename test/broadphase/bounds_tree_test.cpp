@@ -100,6 +100,21 @@ TEST(BoundsTree, EachLeafIsTheBoundsOfItsBoxes) {
   }
 }
 
+TEST(BoundsTree, KeepsItsBoxesWhileMemoryIsReserved) {
+  Random random(7);
+  const std::vector<kernels::Level> levels = levelsAlongAWalk(random, 300);
+  BoundsTree tree;
+  tree.setLevels(levels);
+  tree.reserveLevels(100000);
+  std::size_t visited = 0;
+  tree.visit([](const kernels::Box&) { return true; },
+             [&](std::uint32_t number, const kernels::Box& box) {
+               ++visited;
+               for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(box.min[axis], levels[number].around.min[axis]);
+             });
+  EXPECT_EQ(visited, levels.size());
+}
+
 TEST(LevelSet, WithoutTiersEveryLevelIsVisited) {
   const std::vector<kernels::Level> levels(3);
   const kernels::LevelSet set = {levels.data(), 3, nullptr, 0, 0};

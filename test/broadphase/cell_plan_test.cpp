@@ -24,8 +24,8 @@ std::vector<Aabb> diagonal(std::size_t count) {
   return boxes;
 }
 
-CellPlan planOf(const std::vector<Aabb>& boxes, bool is_region = false) {
-  return planFor(boxes, allIds(boxes.size()).data(), boxes.size(), 1.0, is_region);
+CellPlan planOf(const std::vector<Aabb>& boxes, Rows rows = Rows::any) {
+  return planFor(boxes, allIds(boxes.size()).data(), boxes.size(), 1.0, rows);
 }
 
 bool hasOneRow(const CellPlan& plan) { return plan.levels == 1 && plan.grids[0].rows == 1; }
@@ -41,15 +41,39 @@ TEST(CellPlan, HasSeveralRowsIfManyBoxesOverlapAlongEachAxis) {
   EXPECT_FALSE(hasOneRow(planOf(boxes)));
 }
 
-TEST(CellPlan, OfARegionIsNotPlannedAsOneRowOfAllBoxes) { EXPECT_FALSE(hasOneRow(planOf(diagonal(1500), true))); }
+TEST(CellPlan, HasSeveralRowsIfOneRowIsNotAllowed) {
+  EXPECT_FALSE(hasOneRow(planOf(diagonal(1500), Rows::several)));
+  EXPECT_FALSE(hasOneRow(planOf(diagonal(1500), Rows::of_region)));
+}
+
+TEST(CellPlan, HasOneRowOfBoxesThatAreFarApartOnlyIfTheyAreFew) {
+  Random random(3);
+  std::vector<Aabb> boxes;
+  for (int i = 0; i < 20000; ++i) boxes.push_back(boxAround(randomVector(random, 0, 20000), {1, 1, 1}));
+  EXPECT_FALSE(hasOneRow(planOf(boxes)));  // a query would have to test most boxes
+  boxes.resize(1000);
+  EXPECT_TRUE(hasOneRow(planOf(boxes)));
+}
+
+TEST(CellPlan, HasNoCellWhoseIndexIsNotExactAsAFloat) {
+  std::vector<Aabb> boxes;
+  for (const double z : {0.0, 1.0, 1e9}) boxes.push_back(boxAround({0, 0, z}, {1e-3, 1e-3, 1e-3}));
+  std::vector<ProxyId> ids(17000000, 1);  // as if there were so many boxes
+  ids.front() = 0;
+  ids.back() = 2;
+  const CellPlan plan = planFor(boxes, ids.data(), ids.size(), 1.0);
+  for (std::size_t level = 0; level < plan.levels; ++level) {
+    for (const float last : plan.grids[level].last) EXPECT_LT(last, 16777216.0f);
+  }
+}
 
 TEST(CellPlan, DoesNotDependOnAFewBoxesFarAwayInALargeRegion) {
   Random random(2);
   std::vector<Aabb> boxes;
   for (int i = 0; i < 3000; ++i) boxes.push_back(boxAround(randomVector(random, 0, 20), {1, 1, 1}));
-  const float edge = 1.0f / planOf(boxes, true).grids[0].inverse[1];
+  const float edge = 1.0f / planOf(boxes, Rows::of_region).grids[0].inverse[1];
   boxes.push_back(boxAround({1e5, -1e5, 1e5}, {1, 1, 1}));
-  EXPECT_NEAR(1.0f / planOf(boxes, true).grids[0].inverse[1], edge, 0.5 * edge);
+  EXPECT_NEAR(1.0f / planOf(boxes, Rows::of_region).grids[0].inverse[1], edge, 0.5 * edge);
 }
 
 TEST(BoxSample, EstimatesHowManyBoxesFollowABox) {

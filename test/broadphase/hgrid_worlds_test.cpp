@@ -221,6 +221,61 @@ TEST(HGridWorlds, PairsAndQueriesOfADiagonalOfBoxesAreRight) {
   }
 }
 
+/// Returns boxes whose centers are 0.4 m apart along the diagonal of space.
+std::vector<Aabb> rowOfBoxes(std::size_t count) {
+  std::vector<Aabb> boxes;
+  for (std::size_t i = 0; i < count; ++i) {
+    boxes.push_back(boxAround(0.4 * double(i) * Eigen::Vector3d::Ones(), {1, 1, 1}));
+  }
+  return boxes;
+}
+
+TEST(HGridWorlds, QueriesOfARowAreRightWhileSingleBoxesComeAndMove) {
+  Random random(1);
+  const std::vector<Aabb> boxes = rowOfBoxes(600);
+  HGrid grid;
+  test::BruteForce brute_force;
+  const std::vector<Aabb> first(boxes.begin(), boxes.begin() + 380);
+  grid.update(allIds(380), first);
+  brute_force.update(allIds(380), first);
+  // When single boxes join the others, memory is reserved for layers that are not sorted then.
+  for (ProxyId id = 380; id < 600; ++id) {
+    grid.insert(id, boxes[id]);
+    brute_force.insert(id, boxes[id]);
+    if (id % 5 != 0) continue;
+    ASSERT_NO_FATAL_FAILURE(expectQueriesLikeBruteForce(grid, brute_force, random));
+  }
+  for (ProxyId id = 300; id < 600; ++id) {
+    const Aabb moved = boxes[(id * 7) % 600];
+    grid.update(id, moved);
+    brute_force.update(id, moved);
+    if (id % 5 != 0) continue;
+    ASSERT_NO_FATAL_FAILURE(expectQueriesLikeBruteForce(grid, brute_force, random));
+  }
+}
+
+TEST(HGridWorlds, SegmentsNearTheLargestFloatMissNothing) {
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    Random random(seed);
+    std::vector<Aabb> boxes;
+    const float far = float(random.logUniform(1e8, 3e38));
+    const int count = 100 + random.below(400);
+    for (int i = 0; i < count; ++i) {
+      const float y = far * float(random.uniform(0.1, 1.0)) * (random.chance(0.5) ? 1.0f : 1e-3f);
+      boxes.push_back({{far, y, far}, {far, y * 1.0001f, far}});
+    }
+    HGrid grid;
+    test::BruteForce brute_force;
+    grid.update(allIds(boxes.size()), boxes);
+    brute_force.update(allIds(boxes.size()), boxes);
+    for (int i = 0; i < 20; ++i) {
+      const Segment segment{double(far) * Eigen::Vector3d(random.uniform(0.2, 1), random.uniform(0, 1), 0.5),
+                            double(far) * Eigen::Vector3d(1.0, random.uniform(0.9, 1.1), 1.0), 0.0};
+      ASSERT_EQ(test::alongOf(grid, segment), test::alongOf(brute_force, segment)) << seed;
+    }
+  }
+}
+
 TEST(HGridWorlds, BoxesThatAreAllEqualAllMeet) {
   const Aabb somewhere = {{-3.7f, 0, 12}, {-3.5f, 0.3f, 12.1f}}, point = {{5, 5, 5}, {5, 5, 5}};
   for (const Aabb& box : {somewhere, point}) {

@@ -38,6 +38,18 @@ std::size_t BoundsTree::valuesFor(std::size_t leaves) {
   }
 }
 
+/// Allocates the memory for this number of leaves. The hierarchy keeps its boxes.
+void BoundsTree::reserve(std::size_t leaves) {
+  const std::size_t values = valuesFor(leaves);
+  if (values <= bounds_.capacity()) return;
+  bounds_.reserve(bounds_.empty() ? values : values + values / 16);
+  const float* from = bounds_.data();
+  for (int tier = 0; tier < tier_count_; ++tier) {
+    tiers_[static_cast<std::size_t>(tier)].bounds = from;
+    from += 6 * tiers_[static_cast<std::size_t>(tier)].stride;
+  }
+}
+
 void BoundsTree::setLevels(const std::vector<kernels::Level>& levels) {
   per_leaf_ = 0;
   build(levels.size(), [&levels](std::size_t number) { return levels[number].around; });

@@ -25,9 +25,9 @@ class BoundsTree {
   static constexpr std::uint32_t kPerLeaf = 32;
 
   /// Allocates the memory that setLevels() needs for this number of levels.
-  void reserveLevels(std::size_t levels) { bounds_.reserve(valuesFor(levels)); }
+  void reserveLevels(std::size_t levels) { reserve(levels); }
   /// Allocates the memory that setBoxes() needs for a level with this number of boxes.
-  void reserveBoxes(std::size_t boxes) { bounds_.reserve(valuesFor(leavesFor(boxes))); }
+  void reserveBoxes(std::size_t boxes) { reserve(leavesFor(boxes)); }
   /// Computes the hierarchy for these levels. Allocates nothing after reserveLevels() for at least as many levels.
   void setLevels(const std::vector<kernels::Level>& levels);
   /// Computes the hierarchy for the boxes of a level that begins at position 0. Allocates nothing after reserveBoxes()
@@ -62,6 +62,7 @@ class BoundsTree {
     return {{bound[0], bound[tier.stride], bound[2 * tier.stride]},
             {bound[3 * tier.stride], bound[4 * tier.stride], bound[5 * tier.stride]}};
   }
+  void reserve(std::size_t leaves);
   template <class LeafAt>
   void build(std::size_t leaves, const LeafAt& leaf_at);
 

@@ -10,7 +10,8 @@ BoxSample::BoxSample(const std::vector<Aabb>& boxes, const ProxyId* ids, std::si
   size_ = std::min(count, kMost);
   for (std::size_t i = 0; i < size_; ++i) {
     const Aabb& box = boxes[ids[i * count / size_]];
-    for (std::size_t axis = 0; axis < 3; ++axis) sorted_[axis][i] = box.min[static_cast<Eigen::Index>(axis)];
+    corners_[i] = {box.min[0], box.min[1], box.min[2]};
+    for (std::size_t axis = 0; axis < 3; ++axis) sorted_[axis][i] = corners_[i][axis];
   }
   for (auto& values : sorted_) std::sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(size_));
   boxes_per_sampled_box_ = static_cast<double>(count) / static_cast<double>(size_);
@@ -24,6 +25,29 @@ double BoxSample::followers(std::size_t axis, double length) const {
     sum += end - i - 1;
   }
   return boxes_per_sampled_box_ * static_cast<double>(sum) / static_cast<double>(size_);
+}
+
+bool BoxSample::isThin(std::size_t axis, const std::array<double, 3>& sides) const {
+  constexpr std::size_t kGroup = 16;               // successive boxes whose extent is measured
+  constexpr double kSmall = 0.1, kFewBoxes = 4.0;  // fraction of the whole cross section; or cross sections of a box
+  const std::size_t y = (axis + 1) % 3, z = (axis + 2) % 3;
+  auto corners = corners_;
+  const auto end = corners.begin() + static_cast<std::ptrdiff_t>(size_);
+  std::sort(corners.begin(), end, [axis](const auto& a, const auto& b) { return a[axis] < b[axis]; });
+  const auto extent = [&](auto from, auto to, std::size_t i) {
+    const auto [least, most] = std::minmax_element(from, to, [i](const auto& a, const auto& b) { return a[i] < b[i]; });
+    return static_cast<double>((*most)[i]) - (*least)[i];
+  };
+  const auto area = [&](auto from, auto to) {
+    return (extent(from, to, y) + sides[y]) * (extent(from, to, z) + sides[z]);
+  };
+  double sum = 0.0, groups = 0.0;
+  for (auto from = corners.begin(); from != end; groups += 1.0) {
+    const auto to = from + std::min<std::ptrdiff_t>(kGroup, end - from);
+    sum += area(from, to);
+    from = to;
+  }
+  return sum <= groups * std::max(kSmall * area(corners.begin(), end), kFewBoxes * sides[y] * sides[z]);
 }
 
 }  // namespace hgrid

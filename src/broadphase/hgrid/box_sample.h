@@ -24,13 +24,19 @@ class BoxSample {
   /// highest of them.
   double high(std::size_t axis) const { return sorted_[axis][size_ - 1 - size_ / 100]; }
   /// Estimates how many boxes follow a box along the axis, on average: their minimum is at most `length` [m] above the
-  /// minimum of the box.
+  /// minimum of the box. The estimate is too low if the ids are ordered so that the sample has one box of each heap.
   double followers(std::size_t axis, double length) const;
+
+  /// Returns whether boxes that are near each other on this axis are also near each other on the other two, so that the
+  /// bounds of successive boxes are small.
+  /// @param sides  [m] mean sides of the boxes
+  bool isThin(std::size_t axis, const std::array<double, 3>& sides) const;
 
  private:
   static constexpr std::size_t kMost = 256;  // largest number of sampled boxes
 
-  std::array<std::array<float, kMost>, 3> sorted_;
+  std::array<std::array<float, 3>, kMost> corners_;
+  std::array<std::array<float, kMost>, 3> sorted_;  // by axis
   std::size_t size_ = 0;
   double boxes_per_sampled_box_;
 };

@@ -22,8 +22,10 @@ constexpr double kPerRow = 3.0, kPerAskingBox = 4.0, kPerAskedRow = 6.0, kPerTes
 // If boxes extend over several cells, the estimate is too low by this factor, because it counts only one more row on
 // each side. The value was measured.
 constexpr double kSmallCellFactor = 1.8;
-constexpr double kMostCellsAlongBox = 12.0;  // along a row, at most so many cells per longest box
+constexpr double kMostCellsOnAxis = 16777214.0;  // Grid::last must be exact as a float
+constexpr double kMostCellsAlongBox = 12.0;      // along a row, at most so many cells per longest box
 constexpr double kLanes = 8.0;  // boxes per test; one value for all instruction sets, so that all make the same plan
+constexpr std::size_t kFewInOneRow = 2048;   // boxes; so few may share a row, even if queries must test all its leaves
 constexpr std::size_t kWorthSampling = 256;  // boxes; in a smaller region, the window contains all boxes
 constexpr double kMostCellsPerBox = 1.0;     // must be an integer for CellPlan::mostCells()
 
@@ -40,6 +42,7 @@ struct Census {
     }
   }
   double mean(std::size_t axis) const { return total[axis] / boxes; }
+  Vector mean() const { return {mean(0), mean(1), mean(2)}; }
 };
 
 /// The window: the part of space [m] that is divided into cells. It contains the minimum corners of nearly all boxes.
@@ -59,6 +62,7 @@ struct Cells {
   std::array<std::size_t, 3> axes{0, 1, 2};
   Vector edge{};
   std::array<double, 3> count{};
+  double followers = 0.0;  // only of oneRowOf(): estimated number of boxes that follow a box
   double cost = std::numeric_limits<double>::infinity();
 };
 
@@ -76,10 +80,12 @@ Cells cellsOf(const Census& level, const Window& window, double across) {
   cells.count[z] = cellsAlong(window.length(z), across);
   const double rows = cells.count[y] * cells.count[z];
   const double most = window.mostCells(level.boxes);
-  if (rows > most) return cells;  // there would be too many cells; the cost remains infinite
+  // If there would be too many cells, the cost remains infinite.
+  if (rows > most || std::max(cells.count[y], cells.count[z]) > kMostCellsOnAxis) return cells;
   // If fewer than two cells per row are allowed, the edge is longer than the window, so a row has one cell.
   const double along = most / rows - 1.0;
-  cells.edge[x] = std::max(across / kMostCellsAlongBox, window.length(x) / (along < 1.0 ? 0.5 : along));
+  cells.edge[x] =
+      std::max(across / kMostCellsAlongBox, window.length(x) / (along < 1.0 ? 0.5 : std::min(along, kMostCellsOnAxis)));
   if (!(cells.edge[x] > 0.0)) cells.edge[x] = 1.0;
   cells.count[x] = cellsAlong(window.length(x), cells.edge[x]);
 
@@ -125,11 +131,12 @@ Cells oneRowOf(const Census& all, const BoxSample& sample, const Window& window)
     cells.axes = {axis, (axis + 1) % 3, (axis + 2) % 3};
     for (std::size_t i = 0; i < 3; ++i) cells.edge[i] = 1.0 + 2.0 * window.length(i);  // longer than the window
     cells.count.fill(1.0);
-    const double length = window.length(axis), most = window.mostCells(all.boxes) - 1.0;
+    const double length = window.length(axis);
+    const double most = std::min(window.mostCells(all.boxes), kMostCellsOnAxis) - 1.0;
     cells.edge[axis] = std::max({all.largest[axis] / kMostCellsAlongBox, length / most, 1e-30});
     cells.count[axis] = cellsAlong(length, cells.edge[axis]);
-    const double followers = sample.followers(axis, all.mean(axis) + 0.5 * cells.edge[axis]);
-    cells.cost = all.boxes * (kPerBoxInOneRow + kPerFollowerInOneRow * followers) + kPerCell * cells.count[axis];
+    cells.followers = sample.followers(axis, all.mean(axis) + 0.5 * cells.edge[axis]);
+    cells.cost = all.boxes * (kPerBoxInOneRow + kPerFollowerInOneRow * cells.followers) + kPerCell * cells.count[axis];
     if (cells.cost < best.cost) best = cells;
   }
   return best;
@@ -288,8 +295,8 @@ void finish(CellPlan& plan) {
 
 float longestSide(const Aabb& box) { return (box.max - box.min).maxCoeff(); }
 
-CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge,
-                 bool is_region) {
+CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge, Rows rows) {
+  const bool is_region = rows == Rows::of_region;
   CellPlan plan;
   plan.boxes = count;
   if (count == 0) return plan;
@@ -308,10 +315,11 @@ CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t
     plan.windowed = plan.windowed || window.low[i] > lower[i] || window.high[i] < upper[i];
   }
   const double cost = planLevels(plan, statistics, window, finest_edge);
-  if (!is_region) {
+  if (rows == Rows::any) {
     const Cells one_row = oneRowOf(all, *sample, window);
-    if (one_row.cost < cost) {
+    if (one_row.cost < cost && (count <= kFewInOneRow || sample->isThin(one_row.axes[0], all.mean()))) {
       plan.levels = 0;
+      plan.followers = one_row.followers;
       append(plan, all, window, one_row, *std::max_element(all.largest.begin(), all.largest.end()));
     }
   }

@@ -29,7 +29,9 @@ struct CellPlan {
   PerLevel<std::array<float, 3>> largest{};     ///< [m] longest box side per axis, when the plan was made
   PerLevel<std::array<float, 3>> mean_sides{};  ///< [m] mean box side per axis, when the plan was made
 
-  std::uint32_t cells = 0;                ///< number of cells of all levels
+  std::uint32_t cells = 0;  ///< number of cells of all levels
+  /// If all boxes share one row: estimate of how many boxes follow a box, so that it is tested against them. Else 0.
+  double followers = 0.0;
   std::size_t boxes = 0;                  ///< number of boxes that the plan was made for
   std::array<float, 3> lower{}, upper{};  ///< [m] bounds of the minimum corners of these boxes
   /// Whether some minimum corners were outside the window. The window is the part of space that is divided into cells.
@@ -43,6 +45,14 @@ struct CellPlan {
   static std::size_t mostCells(std::size_t count);
 };
 
+/// Says which rows of cells planFor() considers.
+enum class Rows : std::uint8_t {
+  any,
+  several,   ///< the boxes do not share one row, because that was found to be slow
+  of_region  ///< the layer has several regions, and the boxes are those of one of them: the same as `several`; also,
+             ///< fewer spare cells are allowed, and if the boxes are few, the window contains all their minimum corners
+};
+
 /// Plans levels and cells for the boxes of `count` ids. A cost model estimates the time of a search for all pairs, and
 /// the function selects the cheapest plan:
 ///
@@ -52,15 +62,15 @@ struct CellPlan {
 /// - Across the rows, the edge of a cell is one of several multiples, from 1/4 to 10000, of the longest box side on
 ///   these two axes. If all of them give too many cells, the number of cells determines the edge. Along the rows, cells
 ///   are shorter.
-/// - If each box overlaps only few others along one axis, all boxes share one level, and its cells are one row along
-///   this axis.
+/// - If each box overlaps only few others along one axis, and if boxes that are near each other on this axis are also
+/// near
+///   each other on the others, all boxes share one level, and its cells are one row along this axis. Few boxes may
+///   share a row even if they are far apart on the other axes.
 ///
 /// @param finest_edge  [m] longest box side of the smallest size class
-/// @param is_region  true if the layer has several regions, and the boxes are those of one of them. Then fewer spare
-///   cells are allowed, and one row of cells is not considered. If the boxes are few, the window contains all of their
-///   minimum corners.
+/// @param rows  what is known about the boxes
 CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge,
-                 bool is_region = false);
+                 Rows rows = Rows::any);
 
 /// Estimates how many rows of cells of the level `asked` a search visits for one box of the level `asking`.
 double rowsAsked(const kernels::Level& asking, const kernels::Level& asked);

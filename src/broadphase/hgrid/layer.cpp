@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kReadBeyond = 16;                      // positions that kernels may read beyond the last box
 constexpr std::size_t kWorthCopying = std::size_t{1} << 18;  // number of boxes; fewer boxes mostly stay in the cache
 constexpr int kSortsPerPlan = 64;                            // after so many sorts, the layer makes a new plan
+constexpr int kSortsPerCheck = 8;                            // after so many sorts, a layer with one row is checked
 constexpr std::size_t kWorthRegions = 64;                    // a layer with fewer boxes than this has one region
 constexpr double kCrowded = 32.0;     // from this crowding() on, regions are tried; evenly spread boxes have about 2
 constexpr double kLessCrowded = 0.6;  // regions are used if they reduce crowding() to less than this fraction
@@ -115,7 +116,9 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
   if (!planned) {
     count(boxes, machine, threads);
     const kernels::Keying& total = scratch.keyings.front();
-    planned = !plan_.fits(BoxCensus{total.lower, total.upper, total.sizes});  // true if the boxes have changed too much
+    // True if the boxes have changed too much.
+    planned = !plan_.fits(BoxCensus{total.lower, total.upper, total.sizes}) ||
+              (sorts_with_plan_ % kSortsPerCheck == 0 && isRowCrowded(machine, threads));
   }
   if (planned) {
     makePlan(boxes, finest_edge, machine, threads);
@@ -132,13 +135,18 @@ void Layer::makePlan(const std::vector<Aabb>& boxes, double finest_edge, const M
   if (isDivided() && divide(boxes, finest_edge, machine, threads)) return count(boxes, machine, threads);
   plan_.planOneRegion(boxes, ids_.data(), count_, finest_edge);
   count(boxes, machine, threads);
+  const Rows rows = isRowCrowded(machine, threads) ? Rows::several : Rows::any;
+  if (rows == Rows::several) {
+    plan_.planOneRegion(boxes, ids_.data(), count_, finest_edge, rows);
+    count(boxes, machine, threads);
+  }
   const double crowded = count_ >= kWorthRegions ? crowding(machine, threads) : 0.0;
   if (crowded < kCrowded) return;
   if (divide(boxes, finest_edge, machine, threads)) {
     count(boxes, machine, threads);
     if (crowding(machine, threads) < kLessCrowded * crowded) return;
   }
-  plan_.planOneRegion(boxes, ids_.data(), count_, finest_edge);
+  plan_.planOneRegion(boxes, ids_.data(), count_, finest_edge, rows);
   count(boxes, machine, threads);
 }
 
@@ -158,6 +166,30 @@ bool Layer::divide(const std::vector<Aabb>& boxes, double finest_edge, const Mac
     return false;
   }
   return true;
+}
+
+/// Returns whether the boxes share one row and more of them follow a box than was planned. The followers of a box are
+/// the later boxes of its cell, and the boxes of the next cells, as far as the mean side of a box reaches.
+bool Layer::isRowCrowded(const Machine& machine, std::size_t threads) const {
+  if (!plan_.isOneRow()) return false;
+  const auto boxesIn = [&](std::size_t cell) {
+    double boxes = 0.0;
+    for (std::size_t thread = 0; thread < threads; ++thread) boxes += countsOf(thread, threads, machine)[cell];
+    return boxes;
+  };
+  const kernels::Grid& grid = plan_.grids()[0];
+  const std::size_t cells = plan_.cells();
+  const auto reach =
+      static_cast<std::size_t>(std::min(plan_.meanSides(0)[grid.axes[0]] * grid.inverse[grid.axes[0]], 1e6f));
+  double ahead = 0.0, followers = 0.0;  // boxes in the next `reach` cells
+  for (std::size_t cell = 0; cell < std::min(reach, cells); ++cell) ahead += boxesIn(cell);
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    const double here = boxesIn(cell);
+    if (cell + reach < cells) ahead += boxesIn(cell + reach);
+    ahead -= here;
+    followers += here * (0.5 * (here - 1.0) + ahead);
+  }
+  return !plan_.fitsFollowers(followers / static_cast<double>(count_));
 }
 
 /// Returns how crowded the cells are: the average over all boxes of the number of boxes in the cell of a box.
@@ -308,12 +340,12 @@ void Layer::describe(const SortScratch& scratch) {
   }
   point();
   level_bounds_.setLevels(levels_);
-  is_one_row_ = levels_.size() == 1 && levels_.front().grid.rows == 1;
+  is_one_row_ = plan_.isOneRow();
   if (is_one_row_) box_bounds_.setBoxes(levels_.front());
   if (plan_.isDivided()) {
     occupancy_.set(levels_);
   } else {
-    occupancy_.clear();  // the only region has no large empty parts
+    occupancy_.clear();  // cells, or the bounds of boxes, lead a query past empty parts
   }
 }
 

@@ -95,6 +95,7 @@ class Layer {
   void makePlan(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads);
   bool divide(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads);
   void count(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads);
+  bool isRowCrowded(const Machine& machine, std::size_t threads) const;
   double crowding(const Machine& machine, std::size_t threads) const;
   void scatter(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads);
   void describe(const SortScratch& scratch);

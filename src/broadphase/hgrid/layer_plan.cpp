@@ -58,9 +58,9 @@ void LayerPlan::append(const CellPlan& plan) {
   cells_ += plan.cells;
 }
 
-void LayerPlan::planOneRegion(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count,
-                              double finest_edge) {
-  const CellPlan plan = planFor(boxes, ids, count, finest_edge);
+void LayerPlan::planOneRegion(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge,
+                              Rows rows) {
+  const CellPlan plan = planFor(boxes, ids, count, finest_edge, rows);
   clear();
   append(plan);
   tree_.setLevels(0, 0, static_cast<std::uint32_t>(plan.levels));
@@ -68,6 +68,7 @@ void LayerPlan::planOneRegion(const std::vector<Aabb>& boxes, const ProxyId* ids
   lower_ = plan.lower;
   upper_ = plan.upper;
   windowed_ = plan.windowed;
+  followers_ = plan.followers;
 }
 
 bool LayerPlan::planRegions(const std::vector<Aabb>& boxes, ProxyId* ids, std::uint32_t* scratch, std::size_t count,
@@ -78,7 +79,8 @@ bool LayerPlan::planRegions(const std::vector<Aabb>& boxes, ProxyId* ids, std::u
   const std::vector<std::size_t> begin = sortByRegion(divided.tree_, boxes, ids, scratch, count);
   for (std::size_t region = 0; region < divided.tree_.size(); ++region) {
     const auto first_level = static_cast<std::uint32_t>(divided.levels());
-    const CellPlan plan = planFor(boxes, ids + begin[region], begin[region + 1] - begin[region], finest_edge, true);
+    const CellPlan plan =
+        planFor(boxes, ids + begin[region], begin[region + 1] - begin[region], finest_edge, Rows::of_region);
     divided.append(plan);
     divided.tree_.setLevels(region, first_level, static_cast<std::uint32_t>(plan.levels));
   }

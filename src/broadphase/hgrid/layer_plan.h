@@ -30,7 +30,9 @@ class LayerPlan {
   void clear();
   /// Plans one region for the boxes of `count` ids. Allocates nothing.
   /// @param finest_edge  [m] longest box side of the smallest size class
-  void planOneRegion(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge);
+  /// @param rows  Rows::any or Rows::several
+  void planOneRegion(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge,
+                     Rows rows = Rows::any);
   /// Plans several regions for the boxes of `count` ids. In each region, boxes are spread about evenly.
   ///
   /// @param ids      in and out: the function sorts them by region
@@ -46,6 +48,11 @@ class LayerPlan {
   std::uint32_t cells() const { return cells_; }  ///< number of cells of all levels
   const kernels::Grid* grids() const { return grids_.data(); }
   const float* sides() const { return sides_.data(); }  ///< [m] longest box side of each level
+  /// Returns whether all boxes share one level with one row of cells.
+  bool isOneRow() const { return !isDivided() && levels() == 1 && grids_.front().rows == 1; }
+  /// Returns whether this number of boxes that follow a box in the row is about what was planned. If it is larger, the
+  /// row is slow.
+  bool fitsFollowers(double followers) const { return followers <= 2.0 * followers_ + 8.0; }
   /// Returns for each level the index of its first cell among the cells of all levels.
   const std::uint32_t* firstCells() const { return first_cells_.data(); }
   /// Returns the mean box sides [m] of a level, per axis.
@@ -75,8 +82,9 @@ class LayerPlan {
   RegionTree tree_;
   std::uint32_t cells_ = 0;
   std::size_t boxes_ = 0;  // number of boxes that the plan was made for
-  // The next three members are valid only if the layer has one region. They describe the boxes of the plan.
+  // The next four members are valid only if the layer has one region. They describe the boxes of the plan.
   std::array<float, 3> lower_{}, upper_{};  // [m] bounds of the minimum corners
+  double followers_ = 0.0;                  // see CellPlan
   bool windowed_ = false;                   // whether some minimum corners were outside the window (see CellPlan)
 };
 

@@ -179,10 +179,14 @@ double likelyRadius(const kernels::Level& level, std::size_t count) {
 
 /// Estimates the radius [m] of a sphere that contains `count` boxes of a layer with one row. `leaf` is the bounds of
 /// some of them.
-double likelyRadius(const kernels::Box& leaf, std::size_t count) {
-  double longest = 1e-30;
-  for (int i = 0; i < 3; ++i) longest = std::max(longest, static_cast<double>(leaf.max[i]) - leaf.min[i]);
-  return longest * std::max(1.0, static_cast<double>(count) / BoundsTree::kPerLeaf);
+double likelyRadius(const kernels::Level& level, const kernels::Box& leaf, std::size_t count) {
+  double longest = 1e-30, volume = static_cast<double>(count) / (level.end - level.begin);
+  for (int i = 0; i < 3; ++i) {
+    longest = std::max(longest, static_cast<double>(leaf.max[i]) - leaf.min[i]);
+    volume *= static_cast<double>(level.around.max[i]) - level.around.min[i];
+  }
+  const double along = longest * std::max(1.0, static_cast<double>(count) / BoundsTree::kPerLeaf);
+  return std::max(std::min(along, 0.5 * std::cbrt(volume)), 1e-30);
 }
 
 /// Returns the distance [m] of a point from a box, or 0 if the point is inside.
@@ -214,12 +218,12 @@ template <class Engine>
 SphereSearch searchAround(const Engine& engine, const Eigen::Vector3d& point, std::size_t count) {
   SphereSearch search;
   for (const Layer& layer : engine.layers) {
-    layer.bounds().visit(
-        [&](const kernels::Box& bounds) { return distanceTo(bounds, point) < search.radius; },
-        [&](std::uint32_t number, const kernels::Box& bounds) {
-          search.consider(layer.isOneRow() ? likelyRadius(bounds, count) : likelyRadius(layer.levels()[number], count),
-                          distanceTo(bounds, point));
-        });
+    layer.bounds().visit([&](const kernels::Box& bounds) { return distanceTo(bounds, point) < search.radius; },
+                         [&](std::uint32_t number, const kernels::Box& bounds) {
+                           const double within = layer.isOneRow() ? likelyRadius(layer.levels().front(), bounds, count)
+                                                                  : likelyRadius(layer.levels()[number], count);
+                           search.consider(within, distanceTo(bounds, point));
+                         });
   }
   return search;
 }
@@ -312,7 +316,7 @@ void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limi
     // sphere. If the search found enough boxes, the next radius is the distance of the farthest box that is kept.
     const bool enough = kept == count;
     if (all || radius >= limit || (enough && found[kept - 1].distance <= radius)) return found.resize(kept);
-    radius = std::min(enough ? found[kept - 1].distance : radius + search.step, limit);
+    radius = std::min(enough ? found[kept - 1].distance : radius + std::max(search.step, 0.25 * radius), limit);
     search.step *= 2.0;
   }
 }

@@ -63,7 +63,10 @@ class Crossing {
     const double enter = on.from - slope * (passing.from + passing.below);
     const double leave = on.from - slope * (passing.from - 1.0 - passing.above);
     per_cell_ = Simd::twoOf(slope, -slope);
-    zero_ = slope == 0.0 ? Simd::twoOf(-kEndless, -kEndless) : on.cellsBetween(enter, leave);
+    // At coordinates near the largest float, `enter` and `leave` may be infinite or NaN. Then the span is unlimited,
+    // too.
+    const bool limited = (slope != 0.0) & (magnitude(enter) < kEndless) & (magnitude(leave) < kEndless);
+    zero_ = limited ? on.cellsBetween(enter, leave) : Simd::twoOf(-kEndless, -kEndless);
     const double endless_if_rising = slope > 0.0 ? kEndless : 0.0, endless_if_not = kEndless - endless_if_rising;
     before_ = Simd::twoOf(-endless_if_rising, -endless_if_not);
     after_ = Simd::twoOf(-endless_if_not, -endless_if_rising);
