@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "src/broadphase/hgrid/box_sample.h"
 #include "test/support/expectations.h"
 
@@ -53,6 +55,25 @@ TEST(CellPlan, HasOneRowOfBoxesThatAreFarApartOnlyIfTheyAreFew) {
   EXPECT_FALSE(hasOneRow(planOf(boxes)));  // a query would have to test most boxes
   boxes.resize(1000);
   EXPECT_TRUE(hasOneRow(planOf(boxes)));
+}
+
+TEST(CellPlan, HasSeveralRowsOfManyFlatBoxesOnASurface) {
+  Random random(4);
+  std::vector<Aabb> boxes;
+  for (int i = 0; i < 20000; ++i) {
+    boxes.push_back(boxAround({random.uniform(0, 20000), random.uniform(0, 20000), 0}, {0, 0, 0}));
+  }
+  EXPECT_FALSE(hasOneRow(planOf(boxes)));
+}
+
+TEST(CellPlan, EstimatesFollowersOnlyIfTheyAreWhyBoxesShareOneRow) {
+  EXPECT_LT(planOf(diagonal(1500)).followers, 5.0);
+  std::vector<Aabb> corridor;  // one row is planned because the world is narrow, although many boxes follow each box
+  Random random(5);
+  for (int i = 0; i < 1000; ++i) {
+    corridor.push_back(boxAround({random.uniform(0, 50), random.uniform(0, 0.5), random.uniform(0, 0.5)}, {1, 1, 1}));
+  }
+  EXPECT_EQ(planOf(corridor).followers, std::numeric_limits<double>::infinity());
 }
 
 TEST(CellPlan, HasNoCellWhoseIndexIsNotExactAsAFloat) {

@@ -33,8 +33,9 @@ struct GridScale {
 /// - Levels with few boxes share one grid. A cost model computes the cell size from the boxes.
 /// - Where boxes are spread unevenly, a k-d tree (section 7.3.7) divides space into regions of about even density, and
 ///   each region has its own cells. So the cost depends on the boxes and their pairs, not on the empty space.
-/// - If each box overlaps only few others along one axis, all boxes share one row of cells along this axis, as in a
-///   sweep (section 7.5). Queries then use a tree of the bounds of successive boxes.
+/// - If each box overlaps only few others along one axis, and the boxes are few or close together across this axis, all
+///   boxes share one row of cells along it, as in a sweep (section 7.5). Queries then use a tree of the bounds of
+///   successive boxes.
 /// - A box outside the range of the cells is stored in the nearest outermost cell, so the world has no border.
 /// - Boxes that move are sorted again when they move. Boxes that rest keep their places in the arrays. The grid stores
 ///   the pairs of resting boxes, and does not search for them again.

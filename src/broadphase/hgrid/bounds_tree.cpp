@@ -42,7 +42,7 @@ std::size_t BoundsTree::valuesFor(std::size_t leaves) {
 void BoundsTree::reserve(std::size_t leaves) {
   const std::size_t values = valuesFor(leaves);
   if (values <= bounds_.capacity()) return;
-  bounds_.reserve(bounds_.empty() ? values : values + values / 16);
+  bounds_.reserve(bounds_.capacity() == 0 ? values : values + values / 16);
   const float* from = bounds_.data();
   for (int tier = 0; tier < tier_count_; ++tier) {
     tiers_[static_cast<std::size_t>(tier)].bounds = from;

@@ -28,7 +28,7 @@ double BoxSample::followers(std::size_t axis, double length) const {
 }
 
 bool BoxSample::isThin(std::size_t axis, const std::array<double, 3>& sides) const {
-  constexpr std::size_t kGroup = 16;               // successive boxes whose extent is measured
+  constexpr std::size_t kGroup = 16;               // successive sampled boxes whose extent is measured
   constexpr double kSmall = 0.1, kFewBoxes = 4.0;  // fraction of the whole cross section; or cross sections of a box
   const std::size_t y = (axis + 1) % 3, z = (axis + 2) % 3;
   auto corners = corners_;
@@ -38,8 +38,9 @@ bool BoxSample::isThin(std::size_t axis, const std::array<double, 3>& sides) con
     const auto [least, most] = std::minmax_element(from, to, [i](const auto& a, const auto& b) { return a[i] < b[i]; });
     return static_cast<double>((*most)[i]) - (*least)[i];
   };
+  const auto side = [&sides](std::size_t i) { return std::max(sides[i], 1e-30); };
   const auto area = [&](auto from, auto to) {
-    return (extent(from, to, y) + sides[y]) * (extent(from, to, z) + sides[z]);
+    return (extent(from, to, y) + side(y)) * (extent(from, to, z) + side(z));
   };
   double sum = 0.0, groups = 0.0;
   for (auto from = corners.begin(); from != end; groups += 1.0) {
@@ -47,7 +48,7 @@ bool BoxSample::isThin(std::size_t axis, const std::array<double, 3>& sides) con
     sum += area(from, to);
     from = to;
   }
-  return sum <= groups * std::max(kSmall * area(corners.begin(), end), kFewBoxes * sides[y] * sides[z]);
+  return sum <= groups * std::max(kSmall * area(corners.begin(), end), kFewBoxes * side(y) * side(z));
 }
 
 }  // namespace hgrid

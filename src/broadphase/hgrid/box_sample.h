@@ -10,8 +10,8 @@
 
 namespace hgrid {
 
-/// A sample of boxes. It stores their minimum corners, sorted along each axis, and estimates from them how all boxes
-/// are distributed along an axis, even if they are spread unevenly. Allocates nothing.
+/// A sample of boxes. It stores their minimum corners, also sorted along each axis, and estimates from them how all
+/// boxes are distributed along an axis, even if they are spread unevenly. Allocates nothing.
 class BoxSample {
  public:
   /// Samples at most 256 of the boxes of `count` ids. `count` must be at least 1.
@@ -24,7 +24,7 @@ class BoxSample {
   /// highest of them.
   double high(std::size_t axis) const { return sorted_[axis][size_ - 1 - size_ / 100]; }
   /// Estimates how many boxes follow a box along the axis, on average: their minimum is at most `length` [m] above the
-  /// minimum of the box. The estimate is too low if the ids are ordered so that the sample has one box of each heap.
+  /// minimum of the box. The estimate is too low if the ids are ordered so that the sample has one box of each cluster.
   double followers(std::size_t axis, double length) const;
 
   /// Returns whether boxes that are near each other on this axis are also near each other on the other two, so that the
@@ -35,8 +35,8 @@ class BoxSample {
  private:
   static constexpr std::size_t kMost = 256;  // largest number of sampled boxes
 
-  std::array<std::array<float, 3>, kMost> corners_;
-  std::array<std::array<float, kMost>, 3> sorted_;  // by axis
+  std::array<std::array<float, 3>, kMost> corners_;  // in the order of the ids
+  std::array<std::array<float, kMost>, 3> sorted_;   // by axis
   std::size_t size_ = 0;
   double boxes_per_sampled_box_;
 };

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "broadphase/kernels/kernels.h"
@@ -30,8 +31,8 @@ struct CellPlan {
   PerLevel<std::array<float, 3>> mean_sides{};  ///< [m] mean box side per axis, when the plan was made
 
   std::uint32_t cells = 0;  ///< number of cells of all levels
-  /// If all boxes share one row: estimate of how many boxes follow a box, so that it is tested against them. Else 0.
-  double followers = 0.0;
+  /// If all boxes share one row because few of them follow a box: an estimate of how many. Otherwise infinite.
+  double followers = std::numeric_limits<double>::infinity();
   std::size_t boxes = 0;                  ///< number of boxes that the plan was made for
   std::array<float, 3> lower{}, upper{};  ///< [m] bounds of the minimum corners of these boxes
   /// Whether some minimum corners were outside the window. The window is the part of space that is divided into cells.
@@ -48,7 +49,7 @@ struct CellPlan {
 /// Says which rows of cells planFor() considers.
 enum class Rows : std::uint8_t {
   any,
-  several,   ///< the boxes do not share one row, because that was found to be slow
+  several,   ///< the boxes do not share one row because few of them follow a box: it was found that many do
   of_region  ///< the layer has several regions, and the boxes are those of one of them: the same as `several`; also,
              ///< fewer spare cells are allowed, and if the boxes are few, the window contains all their minimum corners
 };
@@ -62,10 +63,10 @@ enum class Rows : std::uint8_t {
 /// - Across the rows, the edge of a cell is one of several multiples, from 1/4 to 10000, of the longest box side on
 ///   these two axes. If all of them give too many cells, the number of cells determines the edge. Along the rows, cells
 ///   are shorter.
-/// - If each box overlaps only few others along one axis, and if boxes that are near each other on this axis are also
-/// near
-///   each other on the others, all boxes share one level, and its cells are one row along this axis. Few boxes may
-///   share a row even if they are far apart on the other axes.
+/// - All boxes share one level, and its cells are one row along an axis, if each box overlaps only few others along
+/// this
+///   axis. The boxes must be few, or boxes that are near each other along this axis must also be near each other along
+///   the other axes, because queries depend on that.
 ///
 /// @param finest_edge  [m] longest box side of the smallest size class
 /// @param rows  what is known about the boxes

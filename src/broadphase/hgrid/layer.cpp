@@ -180,7 +180,7 @@ bool Layer::isRowCrowded(const Machine& machine, std::size_t threads) const {
   const kernels::Grid& grid = plan_.grids()[0];
   const std::size_t cells = plan_.cells();
   const auto reach =
-      static_cast<std::size_t>(std::min(plan_.meanSides(0)[grid.axes[0]] * grid.inverse[grid.axes[0]], 1e6f));
+      static_cast<std::size_t>(std::min(plan_.meanSides(0)[grid.axes[0]] * grid.inverse[grid.axes[0]], 1e6f) + 0.5f);
   double ahead = 0.0, followers = 0.0;  // boxes in the next `reach` cells
   for (std::size_t cell = 0; cell < std::min(reach, cells); ++cell) ahead += boxesIn(cell);
   for (std::size_t cell = 0; cell < cells; ++cell) {

@@ -50,8 +50,8 @@ class LayerPlan {
   const float* sides() const { return sides_.data(); }  ///< [m] longest box side of each level
   /// Returns whether all boxes share one level with one row of cells.
   bool isOneRow() const { return !isDivided() && levels() == 1 && grids_.front().rows == 1; }
-  /// Returns whether this number of boxes that follow a box in the row is about what was planned. If it is larger, the
-  /// row is slow.
+  /// Returns whether this number of boxes that follow a box in the row is about what was planned, see
+  /// CellPlan::followers. If it is larger, the row is slow.
   bool fitsFollowers(double followers) const { return followers <= 2.0 * followers_ + 8.0; }
   /// Returns for each level the index of its first cell among the cells of all levels.
   const std::uint32_t* firstCells() const { return first_cells_.data(); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -180,13 +181,18 @@ double likelyRadius(const kernels::Level& level, std::size_t count) {
 /// Estimates the radius [m] of a sphere that contains `count` boxes of a layer with one row. `leaf` is the bounds of
 /// some of them.
 double likelyRadius(const kernels::Level& level, const kernels::Box& leaf, std::size_t count) {
-  double longest = 1e-30, volume = static_cast<double>(count) / (level.end - level.begin);
+  double longest = 1e-30;
+  std::array<double, 3> sides;
   for (int i = 0; i < 3; ++i) {
     longest = std::max(longest, static_cast<double>(leaf.max[i]) - leaf.min[i]);
-    volume *= static_cast<double>(level.around.max[i]) - level.around.min[i];
+    sides[static_cast<std::size_t>(i)] = static_cast<double>(level.around.max[i]) - level.around.min[i];
   }
-  const double along = longest * std::max(1.0, static_cast<double>(count) / BoundsTree::kPerLeaf);
-  return std::max(std::min(along, 0.5 * std::cbrt(volume)), 1e-30);
+  std::sort(sides.begin(), sides.end());
+  // The boxes may be spread in space, on a surface or on a line.
+  const double share = static_cast<double>(count) / (level.end - level.begin), on_line = share * sides[2];
+  const double on_surface = std::sqrt(on_line * sides[1]), in_space = std::cbrt(on_line * sides[1] * sides[0]);
+  const double along_row = longest * std::max(1.0, static_cast<double>(count) / BoundsTree::kPerLeaf);
+  return std::min(along_row, std::max({0.5 * on_line, 0.5 * on_surface, 0.5 * in_space, 1e-30}));
 }
 
 /// Returns the distance [m] of a point from a box, or 0 if the point is inside.

@@ -21,7 +21,7 @@ inline std::int32_t cellOf(float value, const Grid& grid, int axis) {
   return static_cast<std::int32_t>(cell);
 }
 
-/// Finds the boxes in a passage that overlap a box.
+/// Finds the boxes in a range of positions that overlap a box.
 inline void searchRange(const Level& level, const Simd::Box& query, PositionRange range, Output<std::uint32_t>& found) {
   for (std::uint32_t j = range.begin; j < range.end; j += Simd::kWidth) {
     found.wrote(Simd::storePositions(found.room(), j, Simd::overlaps(query, level, j, range.end - j)));

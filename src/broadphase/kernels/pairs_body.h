@@ -186,7 +186,8 @@ searchBlocks(const Level& level, std::uint32_t begin, std::uint32_t end, Output<
     } else {
       cells.compute(l, first);
     }
-    // The number of followers. It is negative for a withdrawn box, because x_high is 0.
+    // For a withdrawn box, x_high is 0, so it has at most the followers in the first cell. Its maxima are NaN, so it
+    // overlaps none of them.
     for (int k = 0; k < kBlock; ++k) {
       left[k] = static_cast<std::int32_t>(l.start[cells.own_row[k] + cells.x_high[k] + 1] - first) - k - 1;
     }
