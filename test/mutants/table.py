@@ -118,7 +118,7 @@ CORE = [
     ("in the outermost cells, a line that rises is treated like one that falls", LINE_BODY,
      "slope > 0.0 ? kEndless", "slope < 0.0 ? kEndless"),
     ("near the largest float, a span with NaN is not unlimited", LINE_BODY,
-     " & (magnitude(enter) < kEndless) & (magnitude(leave) < kEndless)", ""),
+     "(enter < kEndless) & (enter > -kEndless) & (leave < kEndless)", "true"),
     ("the cells along a line are chosen without its radius", LINE_BODY,
      "line.around * inverse + rounded", "rounded"),
     ("on a line, the outermost cells do not extend to infinity", LINE_BODY,

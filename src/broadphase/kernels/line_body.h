@@ -65,7 +65,8 @@ class Crossing {
     per_cell_ = Simd::twoOf(slope, -slope);
     // At coordinates near the largest float, `enter` and `leave` may be infinite or NaN. Then the span is unlimited,
     // too.
-    const bool limited = (slope != 0.0) & (magnitude(enter) < kEndless) & (magnitude(leave) < kEndless);
+    const bool limited =
+        (slope != 0.0) & (enter < kEndless) & (enter > -kEndless) & (leave < kEndless) & (leave > -kEndless);
     zero_ = limited ? on.cellsBetween(enter, leave) : Simd::twoOf(-kEndless, -kEndless);
     const double endless_if_rising = slope > 0.0 ? kEndless : 0.0, endless_if_not = kEndless - endless_if_rising;
     before_ = Simd::twoOf(-endless_if_rising, -endless_if_not);
