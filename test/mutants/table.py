@@ -135,6 +135,8 @@ CORE = [
     ("the last lane is missing in the table of packed lanes", AVX2,
      "lane < 8", "lane < 7"),
 
+    ("a row of cells stays although it has become crowded", LAYER,
+     "sorts_with_plan_ % kSortsPerCheck == 0 && isRowCrowded(machine, threads)", "false"),
     ("the reach is a length that was rounded down", LAYER,
      "std::nextafter(total.sizes[4 * i + axis], kFloatInfinity)", "total.sizes[4 * i + axis]"),
     ("the positions in a layer are not computed again", ENGINE,
