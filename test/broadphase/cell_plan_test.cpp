@@ -8,23 +8,16 @@
 
 #include "src/broadphase/hgrid/box_sample.h"
 #include "test/support/expectations.h"
+#include "test/support/worlds.h"
 
 namespace hgrid {
 namespace {
 
 using test::allIds;
 using test::boxAround;
+using test::diagonalOfBoxes;
 using test::Random;
 using test::randomVector;
-
-/// Returns boxes that follow each other in steps of 0.4 m on each axis.
-std::vector<Aabb> diagonal(std::size_t count) {
-  std::vector<Aabb> boxes;
-  for (std::size_t i = 0; i < count; ++i) {
-    boxes.push_back(boxAround(0.4 * double(i) * Eigen::Vector3d::Ones(), {1, 1, 1}));
-  }
-  return boxes;
-}
 
 CellPlan planOf(const std::vector<Aabb>& boxes, Rows rows = Rows::any) {
   return planFor(boxes, allIds(boxes.size()).data(), boxes.size(), 1.0, rows);
@@ -33,7 +26,7 @@ CellPlan planOf(const std::vector<Aabb>& boxes, Rows rows = Rows::any) {
 bool hasOneRow(const CellPlan& plan) { return plan.levels == 1 && plan.grids[0].rows == 1; }
 
 TEST(CellPlan, HasOneRowIfFewBoxesOverlapAlongOneAxis) {
-  for (const std::size_t count : {100u, 1500u, 40000u}) EXPECT_TRUE(hasOneRow(planOf(diagonal(count)))) << count;
+  for (const std::size_t count : {100u, 1500u, 40000u}) EXPECT_TRUE(hasOneRow(planOf(diagonalOfBoxes(count)))) << count;
 }
 
 TEST(CellPlan, HasSeveralRowsIfManyBoxesOverlapAlongEachAxis) {
@@ -44,8 +37,8 @@ TEST(CellPlan, HasSeveralRowsIfManyBoxesOverlapAlongEachAxis) {
 }
 
 TEST(CellPlan, HasSeveralRowsIfOneRowIsNotAllowed) {
-  EXPECT_FALSE(hasOneRow(planOf(diagonal(1500), Rows::several)));
-  EXPECT_FALSE(hasOneRow(planOf(diagonal(1500), Rows::of_region)));
+  EXPECT_FALSE(hasOneRow(planOf(diagonalOfBoxes(1500), Rows::several)));
+  EXPECT_FALSE(hasOneRow(planOf(diagonalOfBoxes(1500), Rows::of_region)));
 }
 
 TEST(CellPlan, HasOneRowOfBoxesThatAreFarApartOnlyIfTheyAreFew) {
@@ -67,7 +60,7 @@ TEST(CellPlan, HasSeveralRowsOfManyFlatBoxesOnASurface) {
 }
 
 TEST(CellPlan, EstimatesFollowersOnlyIfTheyAreWhyBoxesShareOneRow) {
-  EXPECT_LT(planOf(diagonal(1500)).followers, 5.0);
+  EXPECT_LT(planOf(diagonalOfBoxes(1500)).followers, 5.0);
   std::vector<Aabb> corridor;  // one row is planned because the world is narrow, although many boxes follow each box
   Random random(5);
   for (int i = 0; i < 1000; ++i) {
@@ -100,7 +93,7 @@ TEST(CellPlan, DoesNotDependOnAFewBoxesFarAwayInALargeRegion) {
 TEST(BoxSample, EstimatesHowManyBoxesFollowABox) {
   for (const std::size_t count : {2u, 99u, 256u, 257u, 511u, 20000u}) {
     SCOPED_TRACE(count);
-    const std::vector<Aabb> boxes = diagonal(count);
+    const std::vector<Aabb> boxes = diagonalOfBoxes(count);
     const std::vector<ProxyId> ids = allIds(count);
     const BoxSample sample(boxes, ids.data(), count);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -115,7 +108,7 @@ TEST(BoxSample, EstimatesHowManyBoxesFollowABox) {
 
 TEST(BoxSample, IsTakenFromTheWholeList) {
   const std::size_t count = 500;  // less than two boxes per sampled box
-  const std::vector<Aabb> boxes = diagonal(count);
+  const std::vector<Aabb> boxes = diagonalOfBoxes(count);
   const std::vector<ProxyId> ids = allIds(count);
   const BoxSample sample(boxes, ids.data(), count);
   EXPECT_NEAR(sample.low(0), boxes.front().min[0], 4.0);
@@ -123,7 +116,7 @@ TEST(BoxSample, IsTakenFromTheWholeList) {
 }
 
 TEST(BoxSample, OfFewBoxesGivesTheirBounds) {
-  const std::vector<Aabb> boxes = diagonal(99);
+  const std::vector<Aabb> boxes = diagonalOfBoxes(99);
   const std::vector<ProxyId> ids = allIds(99);
   const BoxSample sample(boxes, ids.data(), 99);
   EXPECT_EQ(float(sample.low(1)), boxes.front().min[1]);

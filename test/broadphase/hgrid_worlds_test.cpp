@@ -8,6 +8,7 @@
 
 #include "test/support/brute_force.h"
 #include "test/support/expectations.h"
+#include "test/support/worlds.h"
 
 // Worlds that are difficult for a grid that computes the size of its cells from the boxes.
 
@@ -84,8 +85,8 @@ TEST(HGridWorlds, HeapsTenKilometersApartAreEachAsRightAsOne) {
   }
 }
 
-/// Returns a world whose boxes are spread so unevenly that the grid divides space into regions. In the worlds of kind
-/// 0, it sorts the boxes along one axis instead.
+/// Returns a world whose boxes are spread so unevenly that the grid divides space into regions. For kind 0, it
+/// uses one row of cells instead.
 std::vector<Aabb> unevenWorld(int kind, std::size_t count, Random& random) {
   std::vector<Aabb> boxes;
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
@@ -221,18 +222,9 @@ TEST(HGridWorlds, PairsAndQueriesOfADiagonalOfBoxesAreRight) {
   }
 }
 
-/// Returns boxes whose centers are 0.4 m apart along the diagonal of space.
-std::vector<Aabb> rowOfBoxes(std::size_t count) {
-  std::vector<Aabb> boxes;
-  for (std::size_t i = 0; i < count; ++i) {
-    boxes.push_back(boxAround(0.4 * double(i) * Eigen::Vector3d::Ones(), {1, 1, 1}));
-  }
-  return boxes;
-}
-
 TEST(HGridWorlds, QueriesOfARowAreRightWhileSingleBoxesComeAndMove) {
   Random random(1);
-  const std::vector<Aabb> boxes = rowOfBoxes(600);
+  const std::vector<Aabb> boxes = test::diagonalOfBoxes(600);
   HGrid grid;
   test::BruteForce brute_force;
   const std::vector<Aabb> first(boxes.begin(), boxes.begin() + 380);

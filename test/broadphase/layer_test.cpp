@@ -6,6 +6,7 @@
 
 #include "hgrid_proximity/broadphase/isa.h"
 #include "test/support/expectations.h"
+#include "test/support/worlds.h"
 
 namespace hgrid {
 namespace {
@@ -14,10 +15,7 @@ TEST(Layer, WithOneRowIsPlannedAgainSoonAfterItsBoxesHaveComeTogether) {
   for (const int threads : {1, 2}) {
     const std::size_t count = 20000;
     test::Random random(1);
-    std::vector<Aabb> boxes;
-    for (std::size_t i = 0; i < count; ++i) {
-      boxes.push_back(test::boxAround(0.4 * double(i) * Eigen::Vector3d::Ones(), {1, 1, 1}));
-    }
+    std::vector<Aabb> boxes = test::diagonalOfBoxes(count);
     Workers workers(threads);
     SortScratch scratch;
     const Machine machine{&kernels::of(bestIsa()), &workers, &scratch};

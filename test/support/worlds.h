@@ -145,5 +145,14 @@ inline Pairs allOverlaps(const std::vector<Aabb>& boxes) {
   return pairs;
 }
 
+/// Returns cubes with edges of 1 m, whose centers follow each other in steps of 0.4 m on each axis.
+inline std::vector<Aabb> diagonalOfBoxes(std::size_t count) {
+  std::vector<Aabb> boxes;
+  for (std::size_t i = 0; i < count; ++i) {
+    boxes.push_back(boxAround(0.4 * double(i) * Eigen::Vector3d::Ones(), {1, 1, 1}));
+  }
+  return boxes;
+}
+
 }  // namespace test
 }  // namespace hgrid

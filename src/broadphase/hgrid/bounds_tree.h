@@ -34,8 +34,8 @@ class BoundsTree {
   /// for at least as many boxes. Boxes that are withdrawn later stay in the bounds.
   void setBoxes(const kernels::Level& level);
 
-  /// Returns `levels` together with the hierarchy. They must be the levels that were passed to setLevels(). After
-  /// setBoxes(), they must be exactly the level that was passed there.
+  /// Returns `levels` together with the hierarchy. They must be the levels that were passed to setLevels(), or
+  /// only the level that was passed to setBoxes().
   kernels::LevelSet over(const std::vector<kernels::Level>& levels) const {
     return {levels.data(), static_cast<std::uint32_t>(levels.size()), tiers_.data(), tier_count_, per_leaf_};
   }

@@ -31,7 +31,8 @@ struct CellPlan {
   PerLevel<std::array<float, 3>> mean_sides{};  ///< [m] mean box side per axis, when the plan was made
 
   std::uint32_t cells = 0;  ///< number of cells of all levels
-  /// If all boxes share one row because few of them follow a box: an estimate of how many. Otherwise infinite.
+  /// Estimated number of boxes that follow a box, if all boxes share one row because this number is small. Otherwise
+  /// infinite.
   double followers = std::numeric_limits<double>::infinity();
   std::size_t boxes = 0;                  ///< number of boxes that the plan was made for
   std::array<float, 3> lower{}, upper{};  ///< [m] bounds of the minimum corners of these boxes

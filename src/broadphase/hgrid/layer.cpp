@@ -107,7 +107,6 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
     plan_.clear();
     levels_.clear();
     occupancy_.clear();
-    is_one_row_ = false;
     return level_bounds_.setLevels(levels_);
   }
   SortScratch& scratch = *machine.scratch;
@@ -116,7 +115,7 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
   if (!planned) {
     count(boxes, machine, threads);
     const kernels::Keying& total = scratch.keyings.front();
-    // True if the boxes have changed too much.
+    // A new plan is also needed if the boxes have changed too much.
     planned = !plan_.fits(BoxCensus{total.lower, total.upper, total.sizes}) ||
               (sorts_with_plan_ % kSortsPerCheck == 0 && isRowCrowded(machine, threads));
   }
@@ -340,8 +339,7 @@ void Layer::describe(const SortScratch& scratch) {
   }
   point();
   level_bounds_.setLevels(levels_);
-  is_one_row_ = plan_.isOneRow();
-  if (is_one_row_) box_bounds_.setBoxes(levels_.front());
+  if (isOneRow()) box_bounds_.setBoxes(levels_.front());
   if (plan_.isDivided()) {
     occupancy_.set(levels_);
   } else {

@@ -77,9 +77,9 @@ class Layer {
   bool isDivided() const { return plan_.isDivided(); }
   const RegionTree& regions() const { return plan_.tree(); }
   /// Returns whether the layer has one level with one row of cells.
-  bool isOneRow() const { return is_one_row_; }
+  bool isOneRow() const { return plan_.isOneRow(); }
   /// Returns the bounds for queries: those of the boxes if isOneRow(), else those of the levels.
-  const BoundsTree& bounds() const { return is_one_row_ ? box_bounds_ : level_bounds_; }
+  const BoundsTree& bounds() const { return isOneRow() ? box_bounds_ : level_bounds_; }
   /// Says where the layer certainly has no boxes.
   const Occupancy& occupancy() const { return occupancy_; }
   /// Returns the levels with a hierarchy of their bounds.
@@ -114,8 +114,7 @@ class Layer {
   std::vector<std::uint32_t> start_;  // position of the first box of each cell; at last, the end of the last cell
   std::vector<kernels::Level> levels_;
   BoundsTree level_bounds_;
-  BoundsTree box_bounds_;  // bounds of successive boxes; valid only if is_one_row_
-  bool is_one_row_ = false;
+  BoundsTree box_bounds_;  // bounds of successive boxes; valid only if isOneRow()
   Occupancy occupancy_;
 };
 

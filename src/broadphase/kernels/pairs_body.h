@@ -139,7 +139,7 @@ struct BlockCells {
   }
 };
 
-/// Tests the boxes of a block against the boxes in later rows than their own.
+/// Tests the boxes of a block against the boxes in the rows after their own rows.
 template <bool kRare>
 inline __attribute__((always_inline)) void meetLaterRows(const Level& level, std::uint32_t first, std::uint32_t all,
                                                          const BlockCells& cells, Output<Pair>& found) {
