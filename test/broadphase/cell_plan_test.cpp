@@ -71,13 +71,14 @@ TEST(CellPlan, EstimatesFollowersOnlyIfTheyAreWhyBoxesShareOneRow) {
 
 TEST(CellPlan, HasNoCellWhoseIndexIsNotExactAsAFloat) {
   std::vector<Aabb> boxes;
-  for (const double z : {0.0, 1.0, 1e9}) boxes.push_back(boxAround({0, 0, z}, {1e-3, 1e-3, 1e-3}));
-  std::vector<ProxyId> ids(17000000, 1);  // as if there were so many boxes
-  ids.front() = 0;
-  ids.back() = 2;
-  const CellPlan plan = planFor(boxes, ids.data(), ids.size(), 1.0);
-  for (std::size_t level = 0; level < plan.levels; ++level) {
-    for (const float last : plan.grids[level].last) EXPECT_LT(last, 16777216.0f);
+  for (int i = 0; i < 1000; ++i) boxes.push_back(boxAround({0, 0, 1e6 * i}, {1e-3, 1e-3, 1e-3}));
+  std::vector<ProxyId> ids(17000000);  // as if there were so many boxes
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<ProxyId>(i * boxes.size() / ids.size());
+  for (const Rows rows : {Rows::any, Rows::several}) {
+    const CellPlan plan = planFor(boxes, ids.data(), ids.size(), 1.0, rows);
+    ASSERT_EQ(plan.levels, 1u);
+    EXPECT_GT(plan.grids[0].last[2], 1e7f);
+    EXPECT_LT(plan.grids[0].last[2], 16777216.0f);
   }
 }
 
