@@ -196,7 +196,9 @@ class Cell(System):
 
     @staticmethod
     def pause(process):
+        """Stops a child process. Returns when all its threads have stopped, which may take some milliseconds."""
         os.kill(process.pid, signal.SIGSTOP)
+        os.waitid(os.P_PID, process.pid, os.WSTOPPED)
 
     @staticmethod
     def resume(process):
