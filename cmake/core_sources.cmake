@@ -37,6 +37,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/broad_phase_type.cpp
   src/broadphase/hgrid/bounds_tree.cpp
   src/broadphase/hgrid/box_sample.cpp
+  src/broadphase/hgrid/cell_costs.cpp
   src/broadphase/hgrid/cell_plan.cpp
   src/broadphase/hgrid/engine.cpp
   src/broadphase/hgrid/hgrid.cpp
@@ -47,6 +48,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/hgrid/pair_search.cpp
   src/broadphase/hgrid/queries.cpp
   src/broadphase/hgrid/region_tree.cpp
+  src/broadphase/hgrid/shape_levels.cpp
   src/broadphase/isa.cpp
   src/broadphase/partitions.cpp
   src/broadphase/workers.cpp

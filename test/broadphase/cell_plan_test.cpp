@@ -91,6 +91,57 @@ TEST(CellPlan, DoesNotDependOnAFewBoxesFarAwayInALargeRegion) {
   EXPECT_NEAR(1.0f / planOf(boxes, Rows::of_region).grids[0].inverse[1], edge, 0.5 * edge);
 }
 
+/// Returns rods along random axes.
+std::vector<Aabb> rods(std::size_t count) {
+  Random random(6);
+  std::vector<Aabb> boxes;
+  while (boxes.size() < count) {
+    Eigen::Vector3d size(0.1, 0.1, 0.1);
+    size[random.below(3)] = 10.0;
+    boxes.push_back(boxAround(randomVector(random, 0, 50), size));
+  }
+  return boxes;
+}
+
+TEST(CellPlan, HasOneLevelForTheRodsAlongEachAxis) {
+  const CellPlan plan = planOf(rods(20000));
+  ASSERT_TRUE(plan.by_shape);
+  ASSERT_EQ(plan.levels, 3u);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t level = plan.level_of_shape[std::size_t{1} << axis];
+    EXPECT_NEAR(plan.largest[level][axis], 10.f, 0.1f);
+    for (std::size_t other = 0; other < 3; ++other) {
+      if (other == axis) continue;
+      EXPECT_NEAR(plan.largest[level][other], 0.1f, 0.01f);
+      EXPECT_LT(1.f / plan.grids[level].inverse[other], 2.f) << "cells are short where the rods are thin";
+    }
+  }
+}
+
+TEST(CellPlan, HasALevelForAllRareShapes) {
+  std::vector<Aabb> boxes = rods(20000);
+  for (int i = 0; i < 100; ++i) boxes.push_back(boxAround({0.5 * i, 0.3 * i, 0.1 * i}, {3, 3, i % 2 == 0 ? 3 : 0.1}));
+  const CellPlan plan = planOf(boxes);
+  ASSERT_TRUE(plan.by_shape);
+  EXPECT_EQ(plan.levels, 4u);
+  EXPECT_EQ(plan.level_of_shape[7], plan.level_of_shape[3]);
+  EXPECT_NEAR(plan.largest[plan.level_of_shape[7]][1], 3.f, 0.01f);
+}
+
+TEST(CellPlan, HasALevelForAShapeThatNoBoxHas) {
+  const CellPlan plan = planOf(rods(20000));
+  for (const std::size_t level : plan.level_of_shape) EXPECT_LT(level, plan.levels);
+}
+
+TEST(CellPlan, HasNoLevelsByShapeIfTheyDoNotHelp) {
+  EXPECT_FALSE(planOf(rods(1000)).by_shape) << "few boxes";
+  EXPECT_FALSE(planOf(rods(20000), Rows::of_region).by_shape);
+  std::vector<Aabb> boxes = rods(20000);
+  Random random(7);
+  while (boxes.size() < 80000) boxes.push_back(boxAround(randomVector(random, 0, 50), {0.3, 0.3, 0.3}));
+  EXPECT_FALSE(planOf(boxes).by_shape) << "most boxes are cubes";
+}
+
 TEST(BoxSample, EstimatesHowManyBoxesFollowABox) {
   for (const std::size_t count : {2u, 99u, 256u, 257u, 511u, 20000u}) {
     SCOPED_TRACE(count);

@@ -50,23 +50,27 @@ TEST(HGridInvariance, TheWayToAWorldDoesNotShow) {
   }
 }
 
-/// Claim: the pairs and their order do not depend on the instruction set or on the number of threads.
-TEST(HGridInvariance, InstructionSetsAndThreadsDoNotShow) {
+Aabb boxOfAnySize(Random& random) {
+  const double size = random.chance(0.01) ? random.uniform(1, 20) : random.logUniform(0.05, 1);
+  return test::boxAround(test::randomVector(random, -25, 25), size * test::randomVector(random, 0.1, 1.0));
+}
+
+Aabb thinBox(Random& random) { return test::thinBoxAround(test::randomVector(random, -30, 30), random); }
+
+/// Moves boxes to other places, and checks that the pairs and their order are the same with all instruction sets and
+/// all numbers of threads. @param somewhere  returns a box at a random place
+void expectSamePairs(Aabb (*somewhere)(Random&)) {
   std::vector<Aabb> boxes;
   std::vector<ProxyId> ids;
   Random random(3);
-  const auto somewhere = [&random] {
-    const double size = random.chance(0.01) ? random.uniform(1, 20) : random.logUniform(0.05, 1);
-    return test::boxAround(test::randomVector(random, -25, 25), size * test::randomVector(random, 0.1, 1.0));
-  };
   for (ProxyId id = 0; id < 70000; ++id) {
     ids.push_back(id);
-    boxes.push_back(somewhere());
+    boxes.push_back(somewhere(random));
   }
   std::vector<std::vector<Aabb>> frames = {boxes};
   for (const double share : {1.0, 0.1, 0.1, 0.6}) {
     for (Aabb& box : boxes) {
-      if (random.chance(share)) box = somewhere();
+      if (random.chance(share)) box = somewhere(random);
     }
     frames.push_back(boxes);
   }
@@ -95,6 +99,10 @@ TEST(HGridInvariance, InstructionSetsAndThreadsDoNotShow) {
     }
   }
 }
+
+TEST(HGridInvariance, InstructionSetsAndThreadsDoNotShow) { expectSamePairs(boxOfAnySize); }
+
+TEST(HGridInvariance, InstructionSetsAndThreadsDoNotShowInALayerWithLevelsByShape) { expectSamePairs(thinBox); }
 
 TEST(HGridInvariance, TheSizeOfTheCellsDoesNotShow) {
   for (unsigned seed = 1; seed <= 110; ++seed) {

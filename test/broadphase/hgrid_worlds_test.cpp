@@ -85,6 +85,32 @@ TEST(HGridWorlds, HeapsTenKilometersApartAreEachAsRightAsOne) {
   }
 }
 
+TEST(HGridWorlds, RodsAndPlatesAreRightWhileTheyMoveAndTurn) {
+  for (const Isa isa : test::supportedIsas()) {
+    SCOPED_TRACE(name(isa));
+    Random random(7);
+    std::vector<Aabb> boxes;
+    for (int i = 0; i < 5000; ++i) boxes.push_back(test::thinBoxAround(randomVector(random, -12, 12), random));
+    HGrid grid;
+    grid.setIsa(isa);
+    for (const double share : {0.0, 0.01, 0.2, 1.0, 1.0}) {
+      for (Aabb& box : boxes) {
+        // A box that turns has another shape, possibly one that no box had before.
+        if (random.chance(share)) box = test::thinBoxAround(box.min.cast<double>(), random);
+        if (share < 1.0 && random.chance(0.1 * share)) box = boxAround(box.min.cast<double>(), {2, 2, 2});
+      }
+      grid.update(allIds(boxes.size()), boxes);
+      ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
+    }
+    for (std::size_t i = 0; i < boxes.size(); i += 50) {
+      const Segment segment{boxes[i].min.cast<double>(), randomVector(random, -12, 12), random.uniform(0, 0.2)};
+      std::size_t met = 0;
+      for (const Aabb& box : boxes) met += meet(segment, box).has_value();
+      ASSERT_EQ(test::alongOf(grid, segment).size(), met);
+    }
+  }
+}
+
 /// Returns a world whose boxes are spread so unevenly that the grid divides space into regions. For kind 0, it
 /// uses one row of cells instead.
 std::vector<Aabb> unevenWorld(int kind, std::size_t count, Random& random) {

@@ -25,7 +25,9 @@ struct CellPlan {
 
   std::size_t levels = 0;  ///< number of levels
   PerLevel<kernels::Grid> grids{};
-  PerLevel<float> sides{};                      ///< [m] longest box side; the last level also holds longer boxes
+  PerLevel<float> sides{};  ///< [m] longest box side; the last level also holds longer boxes
+  bool by_shape = false;    ///< whether the shape of a box selects its level; otherwise, its longest side does
+  std::array<std::uint8_t, kernels::kShapes> level_of_shape{};  ///< valid only if by_shape
   PerLevel<std::uint32_t> first_cells{};        ///< index of the level's first cell among the cells of all levels
   PerLevel<std::array<float, 3>> largest{};     ///< [m] longest box side per axis, when the plan was made
   PerLevel<std::array<float, 3>> mean_sides{};  ///< [m] mean box side per axis, when the plan was made
@@ -64,6 +66,8 @@ enum class Rows : std::uint8_t {
 /// - Across the rows, the edge of a cell is one of several multiples, from 1/4 to 10000, of the longest box side on
 ///   these two axes. If all of them give too many cells, the number of cells determines the edge. Along the rows, cells
 ///   are shorter.
+/// - If most boxes are long on some axes and thin on others, boxes of the same shape share a level instead, whatever
+///   their size (ShapeLevels). This is only considered if the boxes are at least 4096 and the layer has one region.
 /// - All boxes share one level, and its cells are one row along an axis, if each box overlaps only few others along
 /// this
 ///   axis. The boxes must be few, or boxes that are near each other along this axis must also be near each other along

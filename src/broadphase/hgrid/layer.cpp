@@ -237,6 +237,7 @@ void Layer::count(const std::vector<Aabb>& boxes, const Machine& machine, std::s
     keying.sides = plan_.sides();
     keying.first_cells = plan_.firstCells();
     keying.levels = static_cast<int>(levels);
+    keying.level_of_shape = plan_.levelOfShape();
     keying.sizes = scratch.sizes.data() + 4 * levels * thread;
     std::fill_n(keying.lower, 4, kFloatInfinity);
     std::fill_n(keying.upper, 4, -kFloatInfinity);

@@ -44,6 +44,7 @@ void LayerPlan::clear() {
   region_boxes_.clear();
   tree_.join();
   cells_ = 0;
+  by_shape_ = false;
 }
 
 void LayerPlan::append(const CellPlan& plan) {
@@ -69,6 +70,8 @@ void LayerPlan::planOneRegion(const std::vector<Aabb>& boxes, const ProxyId* ids
   upper_ = plan.upper;
   windowed_ = plan.windowed;
   followers_ = plan.followers;
+  by_shape_ = plan.by_shape;
+  level_of_shape_ = plan.level_of_shape;
 }
 
 bool LayerPlan::planRegions(const std::vector<Aabb>& boxes, ProxyId* ids, std::uint32_t* scratch, std::size_t count,
@@ -104,7 +107,9 @@ bool LayerPlan::fits(const BoxCensus& now) const {
   }
   if (windowed_) return true;  // lower_ and upper_ then depend on a few far boxes and say nothing about the others
   for (std::size_t i = 0; i < 3; ++i) {
-    const double length = static_cast<double>(upper_[i]) - lower_[i], some = 0.1 * length + largest_.back()[i];
+    float side = 0.0f;
+    for (const std::array<float, 3>& largest : largest_) side = std::max(side, largest[i]);
+    const double length = static_cast<double>(upper_[i]) - lower_[i], some = 0.1 * length + side;
     const double length_now = static_cast<double>(now.upper[i]) - now.lower[i];
     if (now.lower[i] < lower_[i] - some || now.upper[i] > upper_[i] + some || length_now < 0.75 * length - some) {
       return false;

@@ -48,6 +48,8 @@ class LayerPlan {
   std::uint32_t cells() const { return cells_; }  ///< number of cells of all levels
   const kernels::Grid* grids() const { return grids_.data(); }
   const float* sides() const { return sides_.data(); }  ///< [m] longest box side of each level
+  /// Returns the level of each shape, see CellPlan::by_shape; null if the longest side of a box selects its level.
+  const std::uint8_t* levelOfShape() const { return by_shape_ ? level_of_shape_.data() : nullptr; }
   /// Returns whether all boxes share one level with one row of cells.
   bool isOneRow() const { return !isDivided() && levels() == 1 && grids_.front().rows == 1; }
   /// Returns whether this number of boxes that follow a box in the row is about what was planned, see
@@ -82,10 +84,12 @@ class LayerPlan {
   RegionTree tree_;
   std::uint32_t cells_ = 0;
   std::size_t boxes_ = 0;  // number of boxes that the plan was made for
-  // The next four members are valid only if the layer has one region. They describe the boxes of the plan.
+  // The next members are valid only if the layer has one region. They describe the boxes of the plan.
   std::array<float, 3> lower_{}, upper_{};  // [m] bounds of the minimum corners
   double followers_ = 0.0;                  // see CellPlan
-  bool windowed_ = false;                   // whether some minimum corners were outside the window (see CellPlan)
+  bool by_shape_ = false;                   // see CellPlan
+  std::array<std::uint8_t, kernels::kShapes> level_of_shape_{};
+  bool windowed_ = false;  // whether some minimum corners were outside the window (see CellPlan)
 };
 
 }  // namespace hgrid

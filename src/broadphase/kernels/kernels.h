@@ -119,6 +119,11 @@ struct Branch {
   std::uint32_t below, above;  ///< indices of the nodes of the two parts
 };
 
+/// The shape of a box is a number: bit i is set if the box is long on axis i, which means that its side there is at
+/// least 1 / kLongPart of its longest side.
+constexpr int kShapes = 8;
+constexpr float kLongPart = 4.0f;
+
 /// Input and output of the first pass of a counting sort. The pass finds the cell of each box and counts the boxes of
 /// each cell. "By position" means here: in the order of `order`.
 struct Keying {
@@ -133,8 +138,11 @@ struct Keying {
   const float* sides;                ///< in: [m] longest side per level, ascending in a region; the last is not read
   const std::uint32_t* first_cells;  ///< in: for each level the index of its first cell
   int levels;                        ///< in: number of levels
-  float* sizes;                      ///< in and out: [m] 4 floats per level: longest side on x, y, z; 4th unused
-  float lower[4], upper[4];          ///< in and out: [m] bounds of the minimum corners; not used by keyRegions()
+  /// in: for each of the kShapes shapes the level of its boxes. If it is null, the longest side of a box selects its
+  /// level. Not used by keyRegions().
+  const std::uint8_t* level_of_shape;
+  float* sizes;              ///< in and out: [m] 4 floats per level: longest side on x, y, z; 4th unused
+  float lower[4], upper[4];  ///< in and out: [m] bounds of the minimum corners; not used by keyRegions()
   // The following members are only used by keyRegions(). The levels are stored region after region.
   const Region* regions;
   const Branch* branches;  ///< in: the first one is the root

@@ -38,13 +38,19 @@ inline void countIn(Keying& k, std::size_t i, std::uint32_t level, Simd::Quad mi
   ++k.counts[number];
 }
 
+/// What selects the level of a box.
+enum class LevelBy {
+  nothing,  ///< there is only one level; its longest sides stay in a register
+  size,
+  shape
+};
+
 /// Visits the boxes in the order of the last sort. This is nearly the order of their cells. So counts and copies are
 /// written almost sequentially. Only the boxes are read at random places, by id. So they are prefetched.
-/// @tparam kOneLevel  whether there is only one level; then its longest sides stay in a register
-template <bool kOneLevel>
+template <LevelBy kBy>
 void keyLevels(Keying& k) {
-  constexpr int kMostLevels = kOneLevel ? 1 : 17;
-  const int levels = kOneLevel ? 1 : k.levels;
+  constexpr int kMostLevels = kBy == LevelBy::nothing ? 1 : 17;
+  const int levels = kBy == LevelBy::nothing ? 1 : k.levels;
   Simd::Quad largest[kMostLevels], lower = Simd::quadOf(k.lower), upper = Simd::quadOf(k.upper);
   for (int level = 0; level < levels; ++level) largest[level] = Simd::quadOf(k.sizes + 4 * level);
   for (std::size_t i = k.begin; i < k.end; ++i) {
@@ -54,7 +60,8 @@ void keyLevels(Keying& k) {
     lower = Simd::least(lower, min);
     upper = Simd::greatest(upper, min);
     int level = 0;
-    if (!kOneLevel) {
+    if (kBy == LevelBy::shape) level = k.level_of_shape[Simd::longAxes(size, kLongPart)];
+    if (kBy == LevelBy::size) {
       const float side = Simd::greatestOfThree(size);
       while (level + 1 < levels && side > k.sides[level]) ++level;
     }
@@ -68,9 +75,11 @@ void keyLevels(Keying& k) {
 
 void key(Keying* keying) {
   if (keying->levels == 1) {
-    keyLevels<true>(*keying);
+    keyLevels<LevelBy::nothing>(*keying);
+  } else if (keying->level_of_shape != nullptr) {
+    keyLevels<LevelBy::shape>(*keying);
   } else {
-    keyLevels<false>(*keying);
+    keyLevels<LevelBy::size>(*keying);
   }
 }
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "broadphase/hgrid/cell_costs.h"
+#include "broadphase/kernels/kernels.h"
+
+namespace hgrid {
+
+/// Statistics of the boxes of each shape, see kernels::kShapes.
+using ShapeCensuses = std::array<Census, kernels::kShapes>;
+
+/// Levels for boxes that are long on some axes and thin on others, such as plates and rods. Boxes that are long on the
+/// same axes share a level. So the cells of a level can be short where its boxes are thin, and the rows of cells can
+/// lie along the axis that is best for them. A level whose cells must fit all shapes has long cells on all axes, and a
+/// search tests many boxes in vain.
+struct ShapeLevels {
+  std::size_t count = 0;                                  ///< number of levels
+  std::array<Census, kernels::kShapes> censuses{};        ///< per level: statistics of its boxes
+  std::array<Cells, kernels::kShapes> cells{};            ///< per level
+  std::array<std::uint8_t, kernels::kShapes> of_shape{};  ///< per shape: its level
+  double cost = std::numeric_limits<double>::infinity();  ///< [ns] estimated cost to find all pairs
+};
+
+/// Returns the shape of a box: bit i is set if it is long on axis i.
+/// @param sides  [m] at least 0
+std::size_t shapeOf(const std::array<double, 3>& sides);
+
+/// Plans levels for these shapes. Each frequent shape has a level of its own. All other shapes share a level. A shape
+/// without boxes may be assigned to any level. @returns levels with an infinite cost if most boxes are long on all axes
+ShapeLevels shapeLevelsOf(const ShapeCensuses& shapes, const Window& window);
+
+}  // namespace hgrid
