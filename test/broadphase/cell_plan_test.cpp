@@ -92,13 +92,13 @@ TEST(CellPlan, DoesNotDependOnAFewBoxesFarAwayInALargeRegion) {
 }
 
 /// Returns rods along random axes.
-std::vector<Aabb> rods(std::size_t count) {
+std::vector<Aabb> rods(std::size_t count, double side = 50.0) {
   Random random(6);
   std::vector<Aabb> boxes;
   while (boxes.size() < count) {
     Eigen::Vector3d size(0.1, 0.1, 0.1);
     size[random.below(3)] = 10.0;
-    boxes.push_back(boxAround(randomVector(random, 0, 50), size));
+    boxes.push_back(boxAround(randomVector(random, 0, side), size));
   }
   return boxes;
 }
@@ -118,6 +118,15 @@ TEST(CellPlan, HasOneLevelForTheRodsAlongEachAxis) {
   }
 }
 
+TEST(CellPlan, HasLevelsByShapeInTheWorldsOfOtherTests) {
+  Random random(8);
+  for (const auto& [count, half] : {std::pair(5000u, 18.0), std::pair(70000u, 42.0)}) {
+    std::vector<Aabb> boxes;
+    while (boxes.size() < count) boxes.push_back(test::thinBoxAround(randomVector(random, -half, half), random));
+    EXPECT_TRUE(planOf(boxes).by_shape) << count << " boxes";
+  }
+}
+
 TEST(CellPlan, HasALevelForAllRareShapes) {
   std::vector<Aabb> boxes = rods(20000);
   for (int i = 0; i < 100; ++i) boxes.push_back(boxAround({0.5 * i, 0.3 * i, 0.1 * i}, {3, 3, i % 2 == 0 ? 3 : 0.1}));
@@ -134,7 +143,8 @@ TEST(CellPlan, HasALevelForAShapeThatNoBoxHas) {
 }
 
 TEST(CellPlan, HasNoLevelsByShapeIfTheyDoNotHelp) {
-  EXPECT_FALSE(planOf(rods(1000)).by_shape) << "few boxes";
+  EXPECT_FALSE(planOf(rods(4095, 30)).by_shape) << "few boxes";
+  EXPECT_TRUE(planOf(rods(4096, 30)).by_shape);
   EXPECT_FALSE(planOf(rods(20000), Rows::of_region).by_shape);
   std::vector<Aabb> boxes = rods(20000);
   Random random(7);

@@ -55,7 +55,7 @@ Aabb boxOfAnySize(Random& random) {
   return test::boxAround(test::randomVector(random, -25, 25), size * test::randomVector(random, 0.1, 1.0));
 }
 
-Aabb thinBox(Random& random) { return test::thinBoxAround(test::randomVector(random, -30, 30), random); }
+Aabb thinBox(Random& random) { return test::thinBoxAround(test::randomVector(random, -42, 42), random); }
 
 /// Moves boxes to other places, and checks that the pairs and their order are the same with all instruction sets and
 /// all numbers of threads. @param somewhere  returns a box at a random place

@@ -90,7 +90,7 @@ TEST(HGridWorlds, RodsAndPlatesAreRightWhileTheyMoveAndTurn) {
     SCOPED_TRACE(name(isa));
     Random random(7);
     std::vector<Aabb> boxes;
-    for (int i = 0; i < 5000; ++i) boxes.push_back(test::thinBoxAround(randomVector(random, -12, 12), random));
+    for (int i = 0; i < 5000; ++i) boxes.push_back(test::thinBoxAround(randomVector(random, -18, 18), random));
     HGrid grid;
     grid.setIsa(isa);
     for (const double share : {0.0, 0.01, 0.2, 1.0, 1.0}) {
@@ -103,7 +103,7 @@ TEST(HGridWorlds, RodsAndPlatesAreRightWhileTheyMoveAndTurn) {
       ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes));
     }
     for (std::size_t i = 0; i < boxes.size(); i += 50) {
-      const Segment segment{boxes[i].min.cast<double>(), randomVector(random, -12, 12), random.uniform(0, 0.2)};
+      const Segment segment{boxes[i].min.cast<double>(), randomVector(random, -18, 18), random.uniform(0, 0.2)};
       std::size_t met = 0;
       for (const Aabb& box : boxes) met += meet(segment, box).has_value();
       ASSERT_EQ(test::alongOf(grid, segment).size(), met);

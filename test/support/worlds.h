@@ -54,8 +54,8 @@ inline Eigen::Vector3d randomVector(Random& random, double low, double high) {
 /// Returns a rod, or sometimes a plate, along random axes.
 inline Aabb thinBoxAround(const Eigen::Vector3d& center, Random& random) {
   Eigen::Vector3d size = randomVector(random, 0.05, 0.2);
-  size[random.below(3)] = random.uniform(2.0, 6.0);
-  if (random.chance(0.1)) size[random.below(3)] = random.uniform(1.0, 2.0);
+  size[random.below(3)] = random.uniform(5.0, 15.0);
+  if (random.chance(0.02)) size[random.below(3)] = random.uniform(1.0, 4.0);
   return boxAround(center, size);
 }
 
