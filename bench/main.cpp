@@ -38,6 +38,7 @@ int run(const Options& options) {
     std::printf("-- without %s: its library was not found when this program was built\n", name.c_str());
   std::vector<Record> records{runRecord(options)};
   if (options.part("pairs")) runPairs(options, records);
+  if (options.part("loading") && !(options.quick && options.parts.empty())) runLoadings(options, records);
   if (options.part("ageing")) runAgeing(options, records);
   if (options.part("threads") && options.peer("hgrid")) runThreads(options, records);
   if (options.part("queries")) runQueries(options, records);

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <cstdio>
 
+#include "bench/measure/loading_play.h"
 #include "bench/measure/match.h"
 #include "bench/measure/pairs_play.h"
 #include "bench/pairs_settings.h"
@@ -20,6 +21,7 @@ struct Run {
   int threads;
   std::uint64_t age;
   std::function<std::unique_ptr<Peer>()> make;
+  bool loads = false;  ///< whether the time from nothing to the first pairs is measured; false: the time of a frame
 };
 
 Run hgridRun(int threads, const std::string& instructions, std::uint64_t age = 0) {
@@ -54,7 +56,7 @@ std::vector<Run> runsOf(const Options& options, const Setting& setting) {
 }
 
 Record recordOf(const Setting& setting, const Run& run, const Score& score, const std::string& status) {
-  Record record(run.age > 0 ? "ageing" : "pairs");
+  Record record(run.loads ? "loading" : run.age > 0 ? "ageing" : "pairs");
   record.text("peer", run.peer).text("workload", setting.workload).number("n", double(setting.n));
   record.number("moving", setting.moving)
       .text("movers", name(setting.movers))
@@ -65,18 +67,21 @@ Record recordOf(const Setting& setting, const Run& run, const Score& score, cons
   record.number("frames", double(score.timed)).number("pairs", double(score.count)).bits("checksum", score.checksum);
   record.number("pairs_per_box", double(score.count) / double(setting.n));
   record.flag("correct", score.correct && status == "ok");
-  record.number("bytes_per_object", score.bytes / double(setting.n)).text("status", status);
+  if (!run.loads) record.number("bytes_per_object", score.bytes / double(setting.n));
+  record.text("status", status);
   return record;
 }
 
 void print(const Setting& setting, const Run& run, const Score& score, const std::string& status) {
   const bool right = score.correct || run.peer == "floor";
+  char memory[32] = "";
+  if (!run.loads) std::snprintf(memory, sizeof memory, "%7.1f B", score.bytes / double(setting.n));
   std::printf(
-      "  %-28s %-8s threads %d  age %-5llu %10.4f ms  min %10.4f  spread %3.0f %%  %7.1f B  %8llu pairs, %.3g per box  "
+      "  %-28s %-8s threads %d  age %-5llu %10.4f ms  min %10.4f  spread %3.0f %%  %9s  %8llu pairs, %.3g per box  "
       "%s\n",
       run.peer.c_str(), run.instructions.c_str(), run.threads, static_cast<unsigned long long>(run.age),
-      score.median_ms, score.min_ms, 100.0 * score.spread, score.bytes / double(setting.n),
-      static_cast<unsigned long long>(score.count), double(score.count) / double(setting.n),
+      score.median_ms, score.min_ms, 100.0 * score.spread, memory, static_cast<unsigned long long>(score.count),
+      double(score.count) / double(setting.n),
       status != "ok" ? status.c_str()
       : right        ? ""
                      : "WRONG");
@@ -89,6 +94,7 @@ constexpr std::uint64_t kSettled = 30;
 std::unique_ptr<Contestant> contestantOf(const Run& run, const Setting& setting, World& world) {
   const std::uint64_t age = setting.movers == Movers::changing ? kSettled : run.age;
   const auto begin = [&world, run, age]() -> Contestant::Play {
+    if (run.loads) return LoadingPlay(world, run.make);
     const auto play = std::make_shared<PairsPlay>(world, run.make, age);
     return [play](double budget_ms) { return (*play)(budget_ms); };
   };
@@ -108,8 +114,10 @@ void play(const Options& options, const Setting& setting, const std::vector<Run>
   const double limit_s = options.quick ? 20.0 : even ? 120.0 : 40.0;  // enough to load and run about four frames
   match.play(rounds, options.quick ? 40.0 : 150.0, limit_s);
 
-  std::printf("\n%s, n = %zu, %g %% move%s\n", setting.workload.c_str(), setting.n, 100.0 * setting.moving,
-              setting.movers == Movers::changing ? ", other boxes in each frame" : "");
+  const char* what = !runs.empty() && runs.front().loads  ? ", loading and first pairs"
+                     : setting.movers == Movers::changing ? ", other boxes in each frame"
+                                                          : "";
+  std::printf("\n%s, n = %zu, %g %% move%s\n", setting.workload.c_str(), setting.n, 100.0 * setting.moving, what);
   const std::vector<Score> scores = match.scores();
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const std::string& status = match.contestant(i).status();
@@ -139,6 +147,20 @@ void runPairsOf(const std::vector<PeerKind>& kinds, const Options& options, std:
 
 void runPairs(const Options& options, std::vector<Record>& records) {
   for (const Setting& setting : pairsSettings(options)) play(options, setting, runsOf(options, setting), records);
+}
+
+void runLoadings(const Options& options, std::vector<Record>& records) {
+  for (Setting setting : pairsSettings(options)) {
+    if (setting.moving < 1.0 || setting.movers != Movers::same) continue;
+    std::vector<Run> runs;
+    for (Run& run : runsOf(options, setting)) {
+      if (run.peer == "floor" || run.threads > 1) continue;
+      if (run.peer == "hgrid" && run.instructions != hgridInstructions().back()) continue;
+      runs.push_back(run);
+      runs.back().loads = true;
+    }
+    play(options, setting, runs, records);
+  }
 }
 
 void runAgeing(const Options& options, std::vector<Record>& records) {

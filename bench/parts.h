@@ -19,6 +19,10 @@ void runPairs(const Options& options, std::vector<Record>& records);
 /// As above, with HGrid and these peers only.
 void runPairsOf(const std::vector<PeerKind>& kinds, const Options& options, std::vector<Record>& records);
 
+/// Measures how long each peer takes to load all boxes and to find the pairs for the first time, for each workload and
+/// number of boxes.
+void runLoadings(const Options& options, std::vector<Record>& records);
+
 /// Measures whether HGrid and FCL's tree get slower after many frames.
 void runAgeing(const Options& options, std::vector<Record>& records);
 

@@ -272,6 +272,8 @@ def sections(figures):
         found[-1] = (found[-1][0], found[-1][1] + '\n\n' + spread(figures))
         found.append(('hgrid: instruction sets and threads', variants(figures)))
         found.append(('Memory', memory(figures)))
+    if figures.all('loading'):
+        found.append(('Loading', world_tables.loading(figures)))
     if figures.all('threads'):
         found.append(('Two threads', THREADS_NOTE + '\n\n' + threads(figures)))
     if figures.all('ageing'):

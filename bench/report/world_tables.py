@@ -8,6 +8,8 @@ UNEVEN_NOTE = ('Median ms per frame. Pairs: per box. – = not run, since one fr
                'too slow = no answer in time; ✗ = wrong pair set, or no other peer to compare it with; crash = the '
                'process of this peer crashed.')
 
+LOADING_NOTE = 'Median ms in which a new peer loads all boxes and finds the pairs of the first frame.'
+
 MOVERS_NOTE = ('Median ms per frame: the same boxes move in every frame / other boxes move in each frame, chosen at '
                'random. In the second case, 30 frames come before the measured ones.')
 
@@ -29,6 +31,17 @@ def uneven(figures):
                             + [shown(record) for record in records])
         tables.append(table(['n = ' + count(n), 'pairs'] + peers, rows))
     return '\n\n'.join([UNEVEN_NOTE] + tables)
+
+
+def loading(figures):
+    """Returns a note and a table with one row per workload and number of boxes, and one column per peer."""
+    found = figures.all('loading')
+    peers = figures.peers('loading')
+    rows = []
+    for workload, n in dict.fromkeys((record['workload'], record['n']) for record in found):
+        rows.append(['%s, %s' % (workload, count(n))]
+                    + [shown(figures.one('loading', peer=peer, workload=workload, n=n)) for peer in peers])
+    return LOADING_NOTE + '\n\n' + table(['median ms'] + peers, rows)
 
 
 def changing(figures):
