@@ -30,9 +30,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kTurns = 10;       // spans of time into which a comparison is divided
-constexpr double kLonger = 4.5;  // a 99th percentile needs many round trips
-constexpr double kCache = 10.0;  // [s] how long the node keeps transforms; this is also the default
+constexpr int kTurns = 10;        // spans of time into which a comparison is divided
+constexpr double kLonger = 15.0;  // a 99th percentile needs many round trips
+constexpr int kTripTurns = 30;    // spans of time into which the round trips are divided
+constexpr double kCache = 10.0;   // [s] how long the node keeps transforms; this is also the default
 
 void sleepFor(double duration) { std::this_thread::sleep_for(std::chrono::duration<double>(duration)); }
 
@@ -159,38 +160,68 @@ class Caller {
   msg::QuerySphere question_;
 };
 
+/// The round trips [s] of a service, per span of time.
+using Trips = std::vector<std::vector<double>>;
+
 /// Measures the round trips of services, 400 calls per second in total. Each round calls every service once, in random
 /// order, so that /tf and other programs delay all services alike.
-std::vector<ServiceTimes> compareRoundTrips(const std::vector<std::string>& services, double duration) {
+std::vector<Trips> roundTrips(const std::vector<std::string>& services, double duration) {
   std::vector<Caller> callers(services.begin(), services.end());
-  std::vector<ServiceTimes> trips(services.size());
-  std::vector<std::vector<double>> all(services.size());
+  std::vector<Trips> trips(services.size(), Trips(kTripTurns));
   std::vector<std::size_t> order(services.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::mt19937 random(1);
   auto due = Clock::now();
-  for (int turn = 0; turn < kTurns; ++turn) {
-    std::vector<std::vector<double>> seconds(services.size());
-    const auto end =
-        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(duration)) / kTurns;
+  for (std::size_t turn = 0; turn < kTripTurns; ++turn) {
+    const auto end = Clock::now() +
+                     std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(duration)) / kTripTurns;
     while (Clock::now() < end) {
       std::shuffle(order.begin(), order.end(), random);
       for (const std::size_t which : order) {
         due = std::max(due + std::chrono::microseconds(2500), Clock::now());
         std::this_thread::sleep_until(due);
-        callers[which].call(seconds[which]);
+        callers[which].call(trips[which][turn]);
       }
     }
-    for (std::size_t which = 0; which < services.size(); ++which) {
-      trips[which].p99_of_turns.push_back(spreadOf(seconds[which]).p99);
-      all[which].insert(all[which].end(), seconds[which].begin(), seconds[which].end());
-    }
-  }
-  for (std::size_t which = 0; which < services.size(); ++which) {
-    trips[which].all = spreadOf(all[which]);
-    std::sort(trips[which].p99_of_turns.begin(), trips[which].p99_of_turns.end());
   }
   return trips;
+}
+
+/// Returns the spread of the round trips in these spans of time.
+Spread spreadOfTurns(const Trips& trips, const std::vector<std::size_t>& turns) {
+  std::vector<double> all;
+  for (const std::size_t turn : turns) all.insert(all.end(), trips[turn].begin(), trips[turn].end());
+  return spreadOf(all);
+}
+
+ServiceTimes timesOf(const Trips& trips) {
+  ServiceTimes times;
+  std::vector<double> all;
+  for (const std::vector<double>& turn : trips) {
+    times.p99_of_turns.push_back(spreadOf(turn).p99);
+    all.insert(all.end(), turn.begin(), turn.end());
+  }
+  times.all = spreadOf(all);
+  std::sort(times.p99_of_turns.begin(), times.p99_of_turns.end());
+  return times;
+}
+
+/// Compares two services whose calls alternated. The interval comes from 1000 random selections of spans of time, with
+/// repetition (bootstrap; Efron 1979).
+Difference differenceOf(const Trips& trips, const Trips& others) {
+  constexpr std::size_t kSelections = 1000;
+  std::mt19937 random(1);
+  std::vector<std::size_t> turns(trips.size());
+  std::iota(turns.begin(), turns.end(), std::size_t{0});
+  const auto difference = [&] { return spreadOfTurns(trips, turns).p99 - spreadOfTurns(others, turns).p99; };
+  const double all = difference();
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < kSelections; ++i) {
+    for (std::size_t& turn : turns) turn = random() % trips.size();
+    differences.push_back(difference());
+  }
+  std::sort(differences.begin(), differences.end());
+  return {all, differences[kSelections / 40], differences[kSelections - 1 - kSelections / 40]};
 }
 
 }  // namespace
@@ -211,10 +242,12 @@ ControlMeasurement measureControls(const Workload& workload, double duration) {
   const RunningNode node(workload, kLonger * duration);
   std::vector<std::string> services{control.name(), beside_tf.name(), node.name()};
   for (std::string& service : services) service += "/query_sphere";
-  const std::vector<ServiceTimes> trips = compareRoundTrips(services, kLonger * duration);
-  result.empty_service = trips[0];
-  result.empty_service_beside_tf = trips[1];
-  result.sphere = trips[2];
+  const std::vector<Trips> trips = roundTrips(services, kLonger * duration);
+  result.empty_service = timesOf(trips[0]);
+  result.empty_service_beside_tf = timesOf(trips[1]);
+  result.sphere = timesOf(trips[2]);
+  result.above_empty = differenceOf(trips[2], trips[0]);
+  result.above_empty_beside_tf = differenceOf(trips[2], trips[1]);
   return result;
 }
 

@@ -23,6 +23,12 @@ struct ServiceTimes {
   std::vector<double> p99_of_turns;  ///< [ms] 99th percentile of each of several spans of time, sorted
 };
 
+/// By how much the 99th percentile of one service is above that of another, with its 95 % confidence interval. Single
+/// calls wait for a processor for milliseconds, so a difference without its interval says little.
+struct Difference {
+  double p99 = 0.0, low = 0.0, high = 0.0;  ///< [ms]
+};
+
 /// Figures of the node beside those of controls, which only use ROS. Each pair is measured with the same messages.
 struct ControlMeasurement {
   std::string title;
@@ -34,6 +40,8 @@ struct ControlMeasurement {
   ServiceTimes empty_service;            ///< an empty service, which a control offers
   ServiceTimes empty_service_beside_tf;  ///< an empty service of a control that also receives /tf
   ServiceTimes sphere;                   ///< the service ~query_sphere of the node
+  Difference above_empty;                ///< of ~query_sphere above the empty service
+  Difference above_empty_beside_tf;      ///< of ~query_sphere above the control that also receives /tf
 };
 
 /// Measures each of the figures for `duration` [s].

@@ -52,6 +52,11 @@ void print(const char* what, const ServiceTimes& trips) {
               p99.front(), p99[p99.size() / 2], p99.back());
 }
 
+void print(const char* what, const Difference& difference) {
+  std::printf("  %-46s %10s %10.3f   95 %% interval: %.3f .. %.3f\n", what, "", difference.p99, difference.low,
+              difference.high);
+}
+
 }  // namespace
 
 void print(const Measurement& m) {
@@ -95,6 +100,8 @@ void print(const ControlMeasurement& m) {
   print("round trip of an empty service", m.empty_service);
   print("the same in a control that also receives /tf", m.empty_service_beside_tf);
   print("round trip of ~query_sphere", m.sphere);
+  print("its p99 above that of the empty service", m.above_empty);
+  print("its p99 above that of the control with /tf", m.above_empty_beside_tf);
   std::printf(
       "  receiving /tf, percent of one processor: the node %.2f, a control with an empty callback %.2f, ratio %.2f\n",
       m.receiving.node, m.receiving.control, m.receiving.node / m.receiving.control);
@@ -156,6 +163,13 @@ void writeJson(const std::string& file, const std::string& commit, const std::ve
     spread("empty service", controls->empty_service.all);
     spread("empty service beside /tf", controls->empty_service_beside_tf.all);
     spread("query_sphere", controls->sphere.all);
+    const auto difference = [&](const char* part, const Difference& above) {
+      out << ",\n  {\"kind\": \"node control\", \"world\": " << quoted(controls->title)
+          << ", \"part\": " << quoted(part) << ", \"p99_ms\": " << number(above.p99)
+          << ", \"low_ms\": " << number(above.low) << ", \"high_ms\": " << number(above.high) << "}";
+    };
+    difference("query_sphere above empty service", controls->above_empty);
+    difference("query_sphere above empty service beside /tf", controls->above_empty_beside_tf);
     out << ",\n  {\"kind\": \"node control\", \"world\": " << quoted(controls->title)
         << ", \"part\": \"receiving\", \"percent\": " << number(controls->receiving.node)
         << ", \"empty_callback_percent\": " << number(controls->receiving.control)
