@@ -177,6 +177,14 @@ TEST(BoxSample, IsTakenFromTheWholeList) {
   EXPECT_NEAR(sample.high(0), boxes.back().min[0], 4.0);
 }
 
+TEST(BoxSample, IsTakenFromBothHeapsWhoseBoxesAlternateInTheListOfIds) {
+  std::vector<Aabb> boxes;
+  for (int i = 0; i < 1024; ++i) boxes.push_back(boxAround({i % 2 == 0 ? 0.0 : 100.0, 0, 0}, {1, 1, 1}));
+  const BoxSample sample(boxes, allIds(boxes.size()).data(), boxes.size());
+  EXPECT_NEAR(sample.low(0), -0.5, 1e-6);
+  EXPECT_NEAR(sample.high(0), 99.5, 1e-6);
+}
+
 TEST(BoxSample, OfFewBoxesGivesTheirBounds) {
   const std::vector<Aabb> boxes = diagonalOfBoxes(99);
   const std::vector<ProxyId> ids = allIds(99);

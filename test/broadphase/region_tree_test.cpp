@@ -53,6 +53,19 @@ TEST(RegionTree, OfFewBoxesIsOneRegion) {
   EXPECT_EQ(treeOf(heaps(random, 2, 3)).size(), 1u);
 }
 
+TEST(RegionTree, FindsHeapsWhoseBoxesAlternateInTheListOfIds) {
+  for (const std::size_t heaps : {2u, 3u, 4u, 8u}) {
+    SCOPED_TRACE(heaps);
+    Random random(1);
+    std::vector<Aabb> boxes;
+    for (std::size_t i = 0; i < 40000; ++i) {
+      const Eigen::Vector3d place(1000.0 * double(i % heaps), 0, 0);
+      boxes.push_back(boxAround(place + randomVector(random, -10, 10), {1, 1, 1}));
+    }
+    EXPECT_GE(treeOf(boxes).size(), heaps);
+  }
+}
+
 TEST(RegionTree, GivesEachHeapARegionOfItsOwn) {
   for (const unsigned seed : {1u, 2u, 3u}) {
     SCOPED_TRACE(seed);

@@ -9,7 +9,8 @@ namespace hgrid {
 BoxSample::BoxSample(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count) {
   size_ = std::min(count, kMost);
   for (std::size_t i = 0; i < size_; ++i) {
-    const Aabb& box = boxes[ids[i * count / size_]];
+    const std::size_t begin = i * count / size_, end = (i + 1) * count / size_;
+    const Aabb& box = boxes[ids[begin + scattered(i) % (end - begin)]];
     corners_[i] = {box.min[0], box.min[1], box.min[2]};
     for (std::size_t axis = 0; axis < 3; ++axis) sorted_[axis][i] = corners_[i][axis];
   }

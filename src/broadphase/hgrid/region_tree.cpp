@@ -7,39 +7,44 @@
 #include <cmath>
 #include <limits>
 
+#include "broadphase/hgrid/box_sample.h"
 #include "geometry/infinity.h"
 
 namespace hgrid {
 namespace {
 
 constexpr std::size_t kLeast = 4;           // smallest number of samples in a region
-constexpr std::size_t kFewSamples = 8192;   // up to this number of boxes, all boxes are samples
+constexpr std::size_t kFewSamples = 2048;   // up to this number of boxes, all boxes are samples
 constexpr std::size_t kBoxesPerSample = 4;  // if there are very many boxes, one in every four is a sample
 // [nats] The cost of a split: kGain, plus kGainPerSample for each sample. A split is made only if the log-likelihood
 // rises by more than its cost. For random samples of evenly spread boxes, the log-likelihood rises by less.
 constexpr double kGainPerSample = 0.25, kGain = 40.0;
 
-using Corner = std::array<float, 3>;
+using Corner = Eigen::Array4f;  // the 4th value is 0; four values are one register
 
 /// The number and the bounds [m] of some minimum corners.
 struct Group {
   double count = 0.0;
-  Corner low{kFloatInfinity, kFloatInfinity, kFloatInfinity}, high{-kFloatInfinity, -kFloatInfinity, -kFloatInfinity};
+  Corner low = Corner::Constant(kFloatInfinity), high = Corner::Constant(-kFloatInfinity);
 
   void add(const Corner& corner) {
     count += 1.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], corner[i]);
-      high[i] = std::max(high[i], corner[i]);
-    }
+    low = low.min(corner);
+    high = high.max(corner);
   }
   void add(const Group& other) {
     count += other.count;
-    for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], other.low[i]);
-      high[i] = std::max(high[i], other.high[i]);
-    }
+    low = low.min(other.low);
+    high = high.max(other.high);
   }
+};
+
+/// A way to split a group.
+struct Split {
+  std::size_t axis = 0;
+  float at = 0.0f;
+  bool exists = false;
+  Group below, above;
 };
 
 }  // namespace
@@ -52,8 +57,8 @@ class RegionTree::Division {
     samples_.reserve(count / stride + 1);
     std::array<double, 3> sides{};
     for (std::size_t i = 0; i < count; i += stride) {
-      const Aabb& box = boxes[ids[i]];
-      samples_.push_back({box.min[0], box.min[1], box.min[2]});
+      const Aabb& box = boxes[ids[std::min(i + scattered(samples_.size()) % stride, count - 1)]];
+      samples_.emplace_back(box.min[0], box.min[1], box.min[2], 0.0f);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         sides[axis] +=
             static_cast<double>(box.max[static_cast<Eigen::Index>(axis)]) - box.min[static_cast<Eigen::Index>(axis)];
@@ -67,7 +72,9 @@ class RegionTree::Division {
   RegionTree tree() {
     RegionTree tree;
     if (samples_.size() < 2 * kLeast) return tree;
-    divide(0, samples_.size(), 0);
+    Group all;
+    for (const Corner& corner : samples_) all.add(corner);
+    divide(0, samples_.size(), all, 0);
     tree.branches_.clear();
     tree.regions_.clear();
     kernels::Region space{};
@@ -85,18 +92,19 @@ class RegionTree::Division {
     std::size_t below = 0, above = 0;  // indices of the two parts into which this part is split
     double likelihood = 0.0;           // log-likelihood of the samples in this part, minus the cost of the splits
   };
-  struct Split {
-    std::size_t axis = 0;
-    float at = 0.0f;
-    bool exists = false;
-  };
+
+  static float at(const Corner& corner, std::size_t axis) { return corner[static_cast<Eigen::Index>(axis)]; }
+  /// Returns how long the bounds of a group are on an axis [m].
+  static double extent(const Group& group, std::size_t axis) {
+    return static_cast<double>(at(group.high, axis)) - at(group.low, axis);
+  }
 
   /// Returns the log-likelihood of the corners of a group, if corners are spread evenly within the bounds of the group.
   /// A summand that is the same for all divisions is left out.
   double likelihood(const Group& group) const {
     if (group.count == 0.0) return 0.0;
     double volume = 1.0;
-    for (std::size_t i = 0; i < 3; ++i) volume *= static_cast<double>(group.high[i]) - group.low[i] + side_[i];
+    for (std::size_t i = 0; i < 3; ++i) volume *= extent(group, i) + side_[i];
     return group.count * std::log(group.count / volume);
   }
 
@@ -107,19 +115,16 @@ class RegionTree::Division {
   /// mean box.
   double mostGain(const Group& group) const {
     double ratio = 1.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      ratio *= (static_cast<double>(group.high[i]) - group.low[i] + side_[i]) / side_[i];
-    }
+    for (std::size_t i = 0; i < 3; ++i) ratio *= (extent(group, i) + side_[i]) / side_[i];
     return group.count * std::log(ratio);
   }
 
   /// Adds a part with the samples begin .. end - 1. Splits the part if the gain is more than the cost of the split.
+  /// @param group  these samples
   /// @returns the index of the part
-  std::size_t divide(std::size_t begin, std::size_t end, int depth) {
+  std::size_t divide(std::size_t begin, std::size_t end, const Group& group, int depth) {
     const std::size_t number = parts_.size();
     parts_.emplace_back();
-    Group group;
-    for (std::size_t i = begin; i < end; ++i) group.add(samples_[i]);
     const double alone = likelihood(group);
     parts_[number].likelihood = alone;
     if (end - begin < 2 * kLeast || depth >= kMostDepth || mostGain(group) <= cost(group)) return number;
@@ -127,9 +132,10 @@ class RegionTree::Division {
     if (!split.exists) return number;
     const auto middle = std::partition(samples_.begin() + static_cast<std::ptrdiff_t>(begin),
                                        samples_.begin() + static_cast<std::ptrdiff_t>(end),
-                                       [&split](const Corner& corner) { return corner[split.axis] < split.at; });
+                                       [&split](const Corner& corner) { return at(corner, split.axis) < split.at; });
     const auto cut = static_cast<std::size_t>(middle - samples_.begin());
-    const std::size_t below = divide(begin, cut, depth + 1), above = divide(cut, end, depth + 1);
+    const std::size_t below = divide(begin, cut, split.below, depth + 1);
+    const std::size_t above = divide(cut, end, split.above, depth + 1);
     const double divided = parts_[below].likelihood + parts_[above].likelihood - cost(group);
     if (divided <= alone) {
       parts_.resize(number + 1);
@@ -145,19 +151,19 @@ class RegionTree::Division {
     Split best;
     double longest = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const double length = (static_cast<double>(group.high[i]) - group.low[i]) / side_[i];
+      const double length = extent(group, i) / side_[i];
       if (length > longest) {
         longest = length;
         best.axis = i;
       }
     }
     const std::size_t axis = best.axis;
-    const double low = group.low[axis], length = group.high[axis] - low;
+    const double low = at(group.low, axis), length = extent(group, axis);
     if (!(length > 0.0)) return best;
     std::array<Group, kBins> bins;
     const double scale = kBins / length;
     for (std::size_t i = begin; i < end; ++i) {
-      const double bin = (static_cast<double>(samples_[i][axis]) - low) * scale;
+      const double bin = (static_cast<double>(at(samples_[i], axis)) - low) * scale;
       bins[std::min(static_cast<std::size_t>(bin), kBins - 1)].add(samples_[i]);
     }
     std::array<Group, kBins> above;  // above[i]: the sum of the bins i .. kBins - 1
@@ -176,9 +182,12 @@ class RegionTree::Division {
       if (gain <= most) continue;
       most = gain;
       // Split midway between the two groups, so that few boxes cross the split when they move.
-      const float at = 0.5f * below.high[axis] + 0.5f * above[i].low[axis];
-      best.at = at > below.high[axis] ? at : above[i].low[axis];
-      best.exists = best.at > below.high[axis];
+      const float end_below = at(below.high, axis), begin_above = at(above[i].low, axis);
+      const float midway = 0.5f * end_below + 0.5f * begin_above;
+      best.at = midway > end_below ? midway : begin_above;
+      best.exists = best.at > end_below;
+      best.below = below;
+      best.above = above[i];
     }
     return best;
   }
