@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "src/broadphase/hgrid/box_sample.h"
+#include "src/broadphase/hgrid/layer_plan.h"
 #include "test/support/expectations.h"
 #include "test/support/worlds.h"
 
@@ -106,7 +107,7 @@ std::vector<Aabb> rods(std::size_t count, double side = 50.0) {
 TEST(CellPlan, HasOneLevelForTheRodsAlongEachAxis) {
   const CellPlan plan = planOf(rods(20000));
   ASSERT_TRUE(plan.by_shape);
-  ASSERT_EQ(plan.levels, 3u);
+  ASSERT_EQ(plan.levels, 4u);  // the last one is for rare shapes
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t level = plan.level_of_shape[std::size_t{1} << axis];
     EXPECT_NEAR(plan.largest[level][axis], 10.f, 0.1f);
@@ -137,9 +138,47 @@ TEST(CellPlan, HasALevelForAllRareShapes) {
   EXPECT_NEAR(plan.largest[plan.level_of_shape[7]][1], 3.f, 0.01f);
 }
 
-TEST(CellPlan, HasALevelForAShapeThatNoBoxHas) {
+TEST(CellPlan, HasALevelForShapesThatNoBoxHas) {
   const CellPlan plan = planOf(rods(20000));
-  for (const std::size_t level : plan.level_of_shape) EXPECT_LT(level, plan.levels);
+  for (const std::size_t shape : {3u, 5u, 6u, 7u}) EXPECT_EQ(plan.level_of_shape[shape], plan.levels - 1) << shape;
+}
+
+TEST(CellPlan, PutsABoxOnTheLevelOnWhichTheKernelsPutIt) {
+  std::vector<Aabb> boxes = rods(20000);
+  Aabb box;  // its first side is a little less than a quarter of the second one; in floats, it is a quarter
+  box.min = {-0.175100282f, -0.0374960192f, 0.f};
+  box.max = {1.15559292f, 5.28527689f, 0.01f};
+  boxes.push_back(box);
+  const CellPlan plan = planOf(boxes);
+  ASSERT_TRUE(plan.by_shape);
+  EXPECT_NEAR(plan.largest[plan.levels - 1][1], 5.32f, 0.01f) << "it is long on two axes, so its shape is rare";
+}
+
+TEST(CellPlan, HasNoLevelsByShapeIfTheLengthsOfRodsDifferMuch) {
+  std::vector<Aabb> boxes = rods(20000);
+  for (std::size_t i = 0; i < boxes.size(); i += 50) boxes[i].max = boxes[i].min + 5 * (boxes[i].max - boxes[i].min);
+  EXPECT_FALSE(planOf(boxes).by_shape);
+}
+
+TEST(LayerPlan, StaysGoodWhileAFewBoxesTurn) {
+  const std::vector<Aabb> boxes = rods(20000);
+  LayerPlan plan;
+  plan.planOneRegion(boxes, allIds(boxes.size()).data(), boxes.size(), 1.0);
+  ASSERT_EQ(plan.levels(), 4u);
+  std::vector<float> sizes(16);
+  const auto fits = [&] {
+    float lower[3] = {0, 0, 0}, upper[3] = {50, 50, 50};
+    return plan.fits(BoxCensus{lower, upper, sizes.data()});
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t level = plan.levelOfShape()[std::size_t{1} << axis];
+    for (std::size_t i = 0; i < 3; ++i) sizes[4 * level + i] = i == axis ? 10.f : 0.1f;
+  }
+  EXPECT_TRUE(fits());
+  sizes[12] = sizes[13] = 7.f;  // a box on the level of the rare shapes
+  EXPECT_TRUE(fits());
+  sizes[4] *= 2;
+  EXPECT_FALSE(fits()) << "a level of a frequent shape has longer boxes";
 }
 
 TEST(CellPlan, HasNoLevelsByShapeIfTheyDoNotHelp) {

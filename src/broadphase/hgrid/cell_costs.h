@@ -36,7 +36,7 @@ struct Census {
       total[i] += other.total[i];
     }
   }
-  double mean(std::size_t axis) const { return total[axis] / boxes; }
+  double mean(std::size_t axis) const { return boxes > 0.0 ? total[axis] / boxes : 0.0; }
   Vector mean() const { return {mean(0), mean(1), mean(2)}; }
 };
 

@@ -95,8 +95,9 @@ BoxStatistics statisticsOf(const std::vector<Aabb>& boxes, const ProxyId* ids, s
       lower[i] = std::min(lower[i], low);
       upper[i] = std::max(upper[i], low);
     }
+    const Eigen::Vector3f size = box.max - box.min;
     statistics.sizes[number].add(sides);
-    statistics.shapes[shapeOf(sides)].add(sides);
+    statistics.shapes[shapeOf({size[0], size[1], size[2]})].add(sides);
   }
   return statistics;
 }

@@ -26,7 +26,9 @@ struct CellPlan {
   std::size_t levels = 0;  ///< number of levels
   PerLevel<kernels::Grid> grids{};
   PerLevel<float> sides{};  ///< [m] longest box side; the last level also holds longer boxes
-  bool by_shape = false;    ///< whether the shape of a box selects its level; otherwise, its longest side does
+  /// Whether the shape of a box selects its level; otherwise, its longest side does. If it does, the last level has the
+  /// rare shapes.
+  bool by_shape = false;
   std::array<std::uint8_t, kernels::kShapes> level_of_shape{};  ///< valid only if by_shape
   PerLevel<std::uint32_t> first_cells{};        ///< index of the level's first cell among the cells of all levels
   PerLevel<std::array<float, 3>> largest{};     ///< [m] longest box side per axis, when the plan was made

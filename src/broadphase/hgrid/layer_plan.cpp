@@ -99,7 +99,8 @@ bool LayerPlan::fits(std::size_t count) const {
 
 bool LayerPlan::fits(const BoxCensus& now) const {
   if (isDivided()) return true;
-  for (std::size_t level = 0; level < levels(); ++level) {
+  // The sides of the few boxes on the last level of a plan by shape vary, and other boxes do not depend on them.
+  for (std::size_t level = 0; level < (by_shape_ ? levels() - 1 : levels()); ++level) {
     for (std::size_t i = 0; i < 3; ++i) {
       const float then = largest_[level][i], size = now.sizes[4 * level + i];
       if (size > 1.25f * then || size < 0.5f * then) return false;

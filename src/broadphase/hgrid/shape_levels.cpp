@@ -72,10 +72,20 @@ void selectAllCells(ShapeLevels& levels, const Window& window) {
   }
 }
 
+/// Returns whether the boxes of a shape are about equally long on the axes on which they are long. Otherwise the
+/// longest of them would make a search visit too many cells for each of the others.
+bool isUniform(const Census& census, std::size_t shape) {
+  constexpr double kMostOfMean = 3.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if ((shape >> i & 1u) != 0 && census.largest[i] > kMostOfMean * census.mean(i)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
-std::size_t shapeOf(const std::array<double, 3>& sides) {
-  const double longest = *std::max_element(sides.begin(), sides.end());
+std::size_t shapeOf(const std::array<float, 3>& sides) {
+  const float longest = *std::max_element(sides.begin(), sides.end());
   std::size_t shape = 0;
   for (std::size_t i = 0; i < 3; ++i) shape |= (sides[i] * kernels::kLongPart >= longest ? std::size_t{1} : 0) << i;
   return shape;
@@ -89,20 +99,25 @@ ShapeLevels shapeLevelsOf(const ShapeCensuses& shapes, const Window& window) {
   const auto isFrequent = [&](std::size_t shape) { return shapes[shape].boxes > kFew * boxes; };
   Census others;
   for (std::size_t shape = 0; shape < shapes.size(); ++shape) {
-    if (isFrequent(shape)) {
+    if (!isFrequent(shape)) {
+      others.add(shapes[shape]);
+    } else if (!isUniform(shapes[shape], shape)) {
+      return {};
+    } else {
       levels.of_shape[shape] = static_cast<std::uint8_t>(levels.count);
       levels.censuses[levels.count++] = shapes[shape];
-    } else {
-      others.add(shapes[shape]);
     }
   }
-  if (others.boxes > 0.0) {
-    for (std::size_t shape = 0; shape < shapes.size(); ++shape) {
-      if (!isFrequent(shape)) levels.of_shape[shape] = static_cast<std::uint8_t>(levels.count);
-    }
-    levels.censuses[levels.count++] = others;
-  }
+  if (others.boxes > 0.0) levels.censuses[levels.count++] = others;
   selectAllCells(levels, window);
+  if (others.boxes == 0.0) {
+    Cells& one = levels.cells[levels.count++];
+    one.count.fill(1.0);
+    for (std::size_t i = 0; i < 3; ++i) one.edge[i] = 1.0 + 2.0 * window.length(i);  // longer than the window
+  }
+  for (std::size_t shape = 0; shape < shapes.size(); ++shape) {
+    if (!isFrequent(shape)) levels.of_shape[shape] = static_cast<std::uint8_t>(levels.count - 1);
+  }
   return levels;
 }
 

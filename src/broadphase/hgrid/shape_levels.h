@@ -28,11 +28,13 @@ struct ShapeLevels {
 };
 
 /// Returns the shape of a box: bit i is set if it is long on axis i.
-/// @param sides  [m] at least 0
-std::size_t shapeOf(const std::array<double, 3>& sides);
+/// @param sides  [m] at least 0; floats, so that the result is the same as in the kernels
+std::size_t shapeOf(const std::array<float, 3>& sides);
 
-/// Plans levels for these shapes. Each frequent shape has a level of its own. All other shapes share a level. A shape
-/// without boxes may be assigned to any level. @returns levels with an infinite cost if most boxes are long on all axes
+/// Plans levels for these shapes. Each frequent shape has a level of its own. All other shapes share the last level,
+/// even if there is no such box yet.
+/// @returns levels with an infinite cost if most boxes are long on all axes, or if the lengths of boxes of a frequent
+///          shape differ much
 ShapeLevels shapeLevelsOf(const ShapeCensuses& shapes, const Window& window);
 
 }  // namespace hgrid

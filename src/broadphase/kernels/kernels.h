@@ -127,15 +127,16 @@ constexpr float kLongPart = 4.0f;
 /// Input and output of the first pass of a counting sort. The pass finds the cell of each box and counts the boxes of
 /// each cell. "By position" means here: in the order of `order`.
 struct Keying {
-  const Box* boxes;                  ///< in: all boxes, by id
-  const std::uint32_t* order;        ///< in: ids in the order in which the boxes are visited
-  std::size_t begin, end;            ///< in: range of positions in `order` that are visited
-  std::size_t readable;              ///< in: size of `order`; ids before it may be prefetched
-  Box* copies;                       ///< out: copies of the boxes, by position; null if not needed
-  std::uint32_t* cells;              ///< out: for each box the index of its cell, by position
-  std::uint32_t* counts;             ///< in and out: number of boxes per cell
-  const Grid* grids;                 ///< in: the grid of each level
-  const float* sides;                ///< in: [m] longest side per level, ascending in a region; the last is not read
+  const Box* boxes;            ///< in: all boxes, by id
+  const std::uint32_t* order;  ///< in: ids in the order in which the boxes are visited
+  std::size_t begin, end;      ///< in: range of positions in `order` that are visited
+  std::size_t readable;        ///< in: size of `order`; ids before it may be prefetched
+  Box* copies;                 ///< out: copies of the boxes, by position; null if not needed
+  std::uint32_t* cells;        ///< out: for each box the index of its cell, by position
+  std::uint32_t* counts;       ///< in and out: number of boxes per cell
+  const Grid* grids;           ///< in: the grid of each level
+  const float* sides;          ///< in: [m] longest side per level, ascending in a region; the last is not read, and
+                               ///< none if level_of_shape is used
   const std::uint32_t* first_cells;  ///< in: for each level the index of its first cell
   int levels;                        ///< in: number of levels
   /// in: for each of the kShapes shapes the level of its boxes. If it is null, the longest side of a box selects its
