@@ -14,7 +14,7 @@ namespace hgrid {
 /// Returns a number that looks random. The ids of boxes may be ordered with a period, for example link after link and
 /// robot after robot. So a sample of boxes at equal distances in the list may contain only boxes of one kind or place.
 constexpr std::size_t scattered(std::size_t number) {
-  return static_cast<std::size_t>((static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u) >> 40);
+  return static_cast<std::size_t>((static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u) >> 36);
 }
 
 /// A sample of boxes. It stores their minimum corners, also sorted along each axis, and estimates from them how all
