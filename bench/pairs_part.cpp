@@ -21,7 +21,7 @@ struct Run {
   int threads;
   std::uint64_t age;
   std::function<std::unique_ptr<Peer>()> make;
-  bool loads = false;  ///< whether the time from nothing to the first pairs is measured; false: the time of a frame
+  bool loads = false;  ///< true: loading and the first frame are measured; false: frames
 };
 
 Run hgridRun(int threads, const std::string& instructions, std::uint64_t age = 0) {
@@ -150,7 +150,7 @@ void runPairs(const Options& options, std::vector<Record>& records) {
 }
 
 void runLoadings(const Options& options, std::vector<Record>& records) {
-  for (Setting setting : pairsSettings(options)) {
+  for (const Setting& setting : pairsSettings(options)) {
     if (setting.moving < 1.0 || setting.movers != Movers::same) continue;
     std::vector<Run> runs;
     for (Run& run : runsOf(options, setting)) {

@@ -206,8 +206,8 @@ ServiceTimes timesOf(const Trips& trips) {
   return times;
 }
 
-/// Compares two services whose calls alternated. The interval comes from 1000 random selections of spans of time, with
-/// repetition (bootstrap; Efron 1979).
+/// Compares two services whose calls alternated. The interval comes from 1000 random samples of the spans of time,
+/// drawn with replacement (bootstrap; Efron 1979).
 Difference differenceOf(const Trips& trips, const Trips& others) {
   constexpr std::size_t kSelections = 1000;
   std::mt19937 random(1);

@@ -23,8 +23,8 @@ struct ServiceTimes {
   std::vector<double> p99_of_turns;  ///< [ms] 99th percentile of each of several spans of time, sorted
 };
 
-/// By how much the 99th percentile of one service is above that of another, with its 95 % confidence interval. Single
-/// calls wait for a processor for milliseconds, so a difference without its interval says little.
+/// The difference of the 99th percentiles of two services, with its 95 % confidence interval. A call can wait some
+/// milliseconds for a processor, so a difference without its interval says little.
 struct Difference {
   double p99 = 0.0, low = 0.0, high = 0.0;  ///< [ms]
 };
@@ -40,8 +40,8 @@ struct ControlMeasurement {
   ServiceTimes empty_service;            ///< an empty service, which a control offers
   ServiceTimes empty_service_beside_tf;  ///< an empty service of a control that also receives /tf
   ServiceTimes sphere;                   ///< the service ~query_sphere of the node
-  Difference above_empty;                ///< of ~query_sphere above the empty service
-  Difference above_empty_beside_tf;      ///< of ~query_sphere above the control that also receives /tf
+  Difference above_empty;                ///< p99 of ~query_sphere minus p99 of the empty service
+  Difference above_empty_beside_tf;      ///< the same for the control that also receives /tf
 };
 
 /// Measures each of the figures for `duration` [s].

@@ -100,8 +100,8 @@ void print(const ControlMeasurement& m) {
   print("round trip of an empty service", m.empty_service);
   print("the same in a control that also receives /tf", m.empty_service_beside_tf);
   print("round trip of ~query_sphere", m.sphere);
-  print("its p99 above that of the empty service", m.above_empty);
-  print("its p99 above that of the control with /tf", m.above_empty_beside_tf);
+  print("its p99 minus that of the empty service", m.above_empty);
+  print("its p99 minus that of the control with /tf", m.above_empty_beside_tf);
   std::printf(
       "  receiving /tf, percent of one processor: the node %.2f, a control with an empty callback %.2f, ratio %.2f\n",
       m.receiving.node, m.receiving.control, m.receiving.node / m.receiving.control);

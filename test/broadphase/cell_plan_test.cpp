@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
 
 #include "src/broadphase/hgrid/box_sample.h"
 #include "src/broadphase/hgrid/layer_plan.h"
@@ -160,6 +161,18 @@ TEST(CellPlan, HasNoLevelsByShapeIfTheLengthsOfRodsDifferMuch) {
   EXPECT_FALSE(planOf(boxes).by_shape);
 }
 
+TEST(LayerPlan, IsNoLongerGoodWhenManyBoxesGetARareShape) {
+  const std::vector<Aabb> boxes = rods(20000);
+  LayerPlan plan;
+  plan.planOneRegion(boxes, allIds(boxes.size()).data(), boxes.size(), 1.0);
+  std::vector<kernels::Level> levels(plan.levels());
+  levels.back().begin = 19900;
+  levels.back().end = 20000;
+  EXPECT_TRUE(plan.fits(levels));
+  levels.back().begin = 18000;
+  EXPECT_FALSE(plan.fits(levels));
+}
+
 TEST(LayerPlan, StaysGoodWhileAFewBoxesTurn) {
   const std::vector<Aabb> boxes = rods(20000);
   LayerPlan plan;
@@ -216,12 +229,17 @@ TEST(BoxSample, IsTakenFromTheWholeList) {
   EXPECT_NEAR(sample.high(0), boxes.back().min[0], 4.0);
 }
 
-TEST(BoxSample, IsTakenFromBothHeapsWhoseBoxesAlternateInTheListOfIds) {
-  std::vector<Aabb> boxes;
-  for (int i = 0; i < 1024; ++i) boxes.push_back(boxAround({i % 2 == 0 ? 0.0 : 100.0, 0, 0}, {1, 1, 1}));
-  const BoxSample sample(boxes, allIds(boxes.size()).data(), boxes.size());
-  EXPECT_NEAR(sample.low(0), -0.5, 1e-6);
-  EXPECT_NEAR(sample.high(0), 99.5, 1e-6);
+TEST(BoxSample, HasBoxesOfAllHeapsWhoseBoxesAlternateInTheListOfIds) {
+  for (const int count : {1024, 16384, 30000, 32768}) {
+    for (int heaps = 2; heaps <= 24; ++heaps) {
+      SCOPED_TRACE(std::to_string(count) + " boxes, " + std::to_string(heaps) + " heaps");
+      std::vector<Aabb> boxes;
+      for (int i = 0; i < count; ++i) boxes.push_back(boxAround({100.0 * (i % heaps), 0, 0}, {1, 1, 1}));
+      const BoxSample sample(boxes, allIds(boxes.size()).data(), boxes.size());
+      EXPECT_NEAR(sample.low(0), -0.5, 1e-3);
+      EXPECT_NEAR(sample.high(0), 100.0 * (heaps - 1) - 0.5, 1e-3);
+    }
+  }
 }
 
 TEST(BoxSample, OfFewBoxesGivesTheirBounds) {

@@ -58,7 +58,8 @@ Aabb boxOfAnySize(Random& random) {
 Aabb thinBox(Random& random) { return test::thinBoxAround(test::randomVector(random, -42, 42), random); }
 
 /// Moves boxes to other places, and checks that the pairs and their order are the same with all instruction sets and
-/// all numbers of threads. @param somewhere  returns a box at a random place
+/// all numbers of threads.
+/// @param somewhere  returns a box at a random place
 void expectSamePairs(Aabb (*somewhere)(Random&)) {
   std::vector<Aabb> boxes;
   std::vector<ProxyId> ids;

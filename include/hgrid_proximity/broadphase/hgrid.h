@@ -23,8 +23,8 @@ struct GridScale {
 /// A hierarchical grid (after Ericson, Real-Time Collision Detection, 2005, sections 7.1 and 7.2).
 ///
 /// Each box is stored in one cell of one level: its longest side selects the level, its minimum corner selects the
-/// cell. If most boxes are thin, the axes on which a box is long select its level instead. The reach of a level is the
-/// longest side of its boxes. A box of the level that overlaps a given box begins, on each axis, at most one reach
+/// cell. If many boxes are thin, the axes on which a box is long may select its level instead. The reach of a level is
+/// the longest side of its boxes. A box of the level that overlaps a given box begins, on each axis, at most one reach
 /// before it. The search for pairs tests every box against its own level and the coarser levels.
 ///
 /// - Boxes are sorted by cell and stored as a structure of arrays. The boxes in a row of cells are one range of array

@@ -11,10 +11,16 @@
 
 namespace hgrid {
 
-/// Returns a number that looks random. The ids of boxes may be ordered with a period, for example link after link and
-/// robot after robot. So a sample of boxes at equal distances in the list may contain only boxes of one kind or place.
-constexpr std::size_t scattered(std::size_t number) {
-  return static_cast<std::size_t>((static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u) >> 36);
+/// Returns a pseudorandom number (the output function of SplitMix64; Steele, Lea and Flood 2014).
+///
+/// Samples use it, because the ids of boxes may be ordered with a period, for example link after link and robot after
+/// robot. Boxes at equal distances in the list may then be of one kind or at one place. So each part of the list gives
+/// the box at a random place of it.
+constexpr std::uint64_t scattered(std::uint64_t number) {
+  std::uint64_t z = (number + 1) * 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
 }
 
 /// A sample of boxes. It stores their minimum corners, also sorted along each axis, and estimates from them how all

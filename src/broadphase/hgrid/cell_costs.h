@@ -11,7 +11,8 @@
 
 namespace hgrid {
 
-// Cells of a level, and estimates of how long searches with these cells take. All vectors have one value per axis.
+// This file plans the cells of levels, and estimates how long searches with these cells take. A vector has one value
+// per axis.
 
 constexpr double kMostCellsPerBox = 1.0;  ///< must be an integer for CellPlan::mostCells()
 

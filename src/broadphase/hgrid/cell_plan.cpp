@@ -18,8 +18,8 @@ namespace {
 using Vector = Census::Vector;
 
 constexpr std::size_t kFewInOneRow = 2048;   // boxes; so few may share a row, even if queries must test all its leaves
-constexpr std::size_t kWorthShapes = 4096;   // boxes; for fewer, a plan of levels by shape would take too long
-constexpr double kClearlyLess = 0.85;        // levels by shape are used if they cost less than this part of others
+constexpr std::size_t kWorthShapes = 4096;   // boxes; for fewer, planning levels by shape takes too long
+constexpr double kClearlyLess = 0.85;        // levels by shape are used only if they cost less than this fraction
 constexpr std::size_t kWorthSampling = 256;  // boxes; in a smaller region, the window contains all boxes
 
 /// Computes the window. On each axis, it contains the middle 98 % of the minimum corners, and it extends beyond each
@@ -143,11 +143,12 @@ double planLevels(CellPlan& plan, const BoxStatistics& statistics, const Window&
   return cost;
 }
 
-/// Replaces the levels of the plan.
+/// Replaces the levels of the plan by levels by shape.
 void setLevels(CellPlan& plan, const ShapeLevels& levels, const Window& window) {
   plan.levels = 0;
   plan.by_shape = true;
   plan.level_of_shape = levels.of_shape;
+  plan.rare_boxes = levels.censuses[levels.count - 1].boxes;
   for (std::size_t i = 0; i < levels.count; ++i) {
     const Census& census = levels.censuses[i];
     append(plan, census, window, levels.cells[i], *std::max_element(census.largest.begin(), census.largest.end()));

@@ -13,7 +13,7 @@
 
 namespace hgrid {
 
-/// Returns the longest of the three sides of a box [m]. It selects the level of the box.
+/// Returns the longest of the three sides of a box [m]. It selects the size class of the box.
 float longestSide(const Aabb& box);
 
 /// Says how the boxes of a region are divided into levels, and each level into cells. Searches give the right answers
@@ -21,7 +21,9 @@ float longestSide(const Aabb& box);
 struct CellPlan {
   static constexpr std::size_t kMostLevels = GridScale::kLevels + 1;
   template <class Value>
-  using PerLevel = std::array<Value, kMostLevels>;  // smallest boxes first; an array, because a plan must not allocate
+  using PerLevel =
+      std::array<Value,
+                 kMostLevels>;  // smallest boxes first unless by_shape; an array, because a plan must not allocate
 
   std::size_t levels = 0;  ///< number of levels
   PerLevel<kernels::Grid> grids{};
@@ -30,6 +32,7 @@ struct CellPlan {
   /// rare shapes.
   bool by_shape = false;
   std::array<std::uint8_t, kernels::kShapes> level_of_shape{};  ///< valid only if by_shape
+  double rare_boxes = 0.0;                      ///< number of boxes on the last level; valid only if by_shape
   PerLevel<std::uint32_t> first_cells{};        ///< index of the level's first cell among the cells of all levels
   PerLevel<std::array<float, 3>> largest{};     ///< [m] longest box side per axis, when the plan was made
   PerLevel<std::array<float, 3>> mean_sides{};  ///< [m] mean box side per axis, when the plan was made
@@ -68,8 +71,8 @@ enum class Rows : std::uint8_t {
 /// - Across the rows, the edge of a cell is one of several multiples, from 1/4 to 10000, of the longest box side on
 ///   these two axes. If all of them give too many cells, the number of cells determines the edge. Along the rows, cells
 ///   are shorter.
-/// - If most boxes are long on some axes and thin on others, boxes of the same shape share a level instead, whatever
-///   their size (ShapeLevels). This is only considered if the boxes are at least 4096 and the layer has one region.
+/// - If many boxes are thin, boxes of the same frequent shape share a level instead, whatever their size (ShapeLevels).
+///   This is only considered for at least 4096 boxes in a layer with one region, and used if it clearly costs less.
 /// - All boxes share one level, and its cells are one row along an axis, if each box overlaps only few others along
 /// this
 ///   axis. The boxes must be few, or boxes that are near each other along this axis must also be near each other along

@@ -72,6 +72,7 @@ void LayerPlan::planOneRegion(const std::vector<Aabb>& boxes, const ProxyId* ids
   followers_ = plan.followers;
   by_shape_ = plan.by_shape;
   level_of_shape_ = plan.level_of_shape;
+  rare_boxes_ = plan.rare_boxes;
 }
 
 bool LayerPlan::planRegions(const std::vector<Aabb>& boxes, ProxyId* ids, std::uint32_t* scratch, std::size_t count,
@@ -99,7 +100,8 @@ bool LayerPlan::fits(std::size_t count) const {
 
 bool LayerPlan::fits(const BoxCensus& now) const {
   if (isDivided()) return true;
-  // The sides of the few boxes on the last level of a plan by shape vary, and other boxes do not depend on them.
+  // The last level of a plan by shape has the rare shapes. If one box turns, the longest sides of this level change,
+  // but the plan is still good.
   for (std::size_t level = 0; level < (by_shape_ ? levels() - 1 : levels()); ++level) {
     for (std::size_t i = 0; i < 3; ++i) {
       const float then = largest_[level][i], size = now.sizes[4 * level + i];
@@ -120,6 +122,10 @@ bool LayerPlan::fits(const BoxCensus& now) const {
 }
 
 bool LayerPlan::fits(const std::vector<kernels::Level>& levels) const {
+  if (by_shape_) {
+    const auto rare = static_cast<double>(levels.back().end - levels.back().begin);
+    return rare <= 2.0 * rare_boxes_ + 0.02 * static_cast<double>(boxes_) + 64.0;
+  }
   if (!isDivided()) return true;
   constexpr double kMostElsewhere = 0.25;  // largest fraction of boxes that may be in other places than planned
   double elsewhere = 0.0;

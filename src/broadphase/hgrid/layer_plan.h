@@ -83,13 +83,14 @@ class LayerPlan {
   std::vector<std::uint32_t> region_boxes_;       // number of boxes per region when the plan was made
   RegionTree tree_;
   std::uint32_t cells_ = 0;
-  std::size_t boxes_ = 0;  // number of boxes that the plan was made for
-  // The next members are valid only if the layer has one region. They describe the boxes of the plan.
+  std::size_t boxes_ = 0;                                        // number of boxes that the plan was made for
+  bool by_shape_ = false;                                        // see CellPlan; false if there are several regions
+  std::array<std::uint8_t, kernels::kShapes> level_of_shape_{};  // valid only if by_shape_
+  double rare_boxes_ = 0.0;                                      // valid only if by_shape_
+  // The next four members describe the boxes of the plan. They are valid only if the layer has one region.
   std::array<float, 3> lower_{}, upper_{};  // [m] bounds of the minimum corners
   double followers_ = 0.0;                  // see CellPlan
-  bool by_shape_ = false;                   // see CellPlan
-  std::array<std::uint8_t, kernels::kShapes> level_of_shape_{};
-  bool windowed_ = false;  // whether some minimum corners were outside the window (see CellPlan)
+  bool windowed_ = false;                   // whether some minimum corners were outside the window (see CellPlan)
 };
 
 }  // namespace hgrid

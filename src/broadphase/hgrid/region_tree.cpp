@@ -14,8 +14,8 @@ namespace hgrid {
 namespace {
 
 constexpr std::size_t kLeast = 4;           // smallest number of samples in a region
-constexpr std::size_t kFewSamples = 2048;   // up to this number of boxes, all boxes are samples
-constexpr std::size_t kBoxesPerSample = 4;  // if there are very many boxes, one in every four is a sample
+constexpr std::size_t kFewSamples = 2048;   // if there are fewer boxes than twice this number, all are samples
+constexpr std::size_t kBoxesPerSample = 4;  // of very many boxes, one of each four successive boxes is a sample
 // [nats] The cost of a split: kGain, plus kGainPerSample for each sample. A split is made only if the log-likelihood
 // rises by more than its cost. For random samples of evenly spread boxes, the log-likelihood rises by less.
 constexpr double kGainPerSample = 0.25, kGain = 40.0;
@@ -39,7 +39,7 @@ struct Group {
   }
 };
 
-/// A way to split a group.
+/// The best split of a group, with the statistics of both parts.
 struct Split {
   std::size_t axis = 0;
   float at = 0.0f;
@@ -93,10 +93,10 @@ class RegionTree::Division {
     double likelihood = 0.0;           // log-likelihood of the samples in this part, minus the cost of the splits
   };
 
-  static float at(const Corner& corner, std::size_t axis) { return corner[static_cast<Eigen::Index>(axis)]; }
+  static float coordinate(const Corner& corner, std::size_t axis) { return corner[static_cast<Eigen::Index>(axis)]; }
   /// Returns how long the bounds of a group are on an axis [m].
   static double extent(const Group& group, std::size_t axis) {
-    return static_cast<double>(at(group.high, axis)) - at(group.low, axis);
+    return static_cast<double>(coordinate(group.high, axis)) - coordinate(group.low, axis);
   }
 
   /// Returns the log-likelihood of the corners of a group, if corners are spread evenly within the bounds of the group.
@@ -120,7 +120,7 @@ class RegionTree::Division {
   }
 
   /// Adds a part with the samples begin .. end - 1. Splits the part if the gain is more than the cost of the split.
-  /// @param group  these samples
+  /// @param group  number and bounds of these samples
   /// @returns the index of the part
   std::size_t divide(std::size_t begin, std::size_t end, const Group& group, int depth) {
     const std::size_t number = parts_.size();
@@ -130,9 +130,9 @@ class RegionTree::Division {
     if (end - begin < 2 * kLeast || depth >= kMostDepth || mostGain(group) <= cost(group)) return number;
     const Split split = bestSplit(group, begin, end);
     if (!split.exists) return number;
-    const auto middle = std::partition(samples_.begin() + static_cast<std::ptrdiff_t>(begin),
-                                       samples_.begin() + static_cast<std::ptrdiff_t>(end),
-                                       [&split](const Corner& corner) { return at(corner, split.axis) < split.at; });
+    const auto middle = std::partition(
+        samples_.begin() + static_cast<std::ptrdiff_t>(begin), samples_.begin() + static_cast<std::ptrdiff_t>(end),
+        [&split](const Corner& corner) { return coordinate(corner, split.axis) < split.at; });
     const auto cut = static_cast<std::size_t>(middle - samples_.begin());
     const std::size_t below = divide(begin, cut, split.below, depth + 1);
     const std::size_t above = divide(cut, end, split.above, depth + 1);
@@ -158,12 +158,12 @@ class RegionTree::Division {
       }
     }
     const std::size_t axis = best.axis;
-    const double low = at(group.low, axis), length = extent(group, axis);
+    const double low = coordinate(group.low, axis), length = extent(group, axis);
     if (!(length > 0.0)) return best;
     std::array<Group, kBins> bins;
     const double scale = kBins / length;
     for (std::size_t i = begin; i < end; ++i) {
-      const double bin = (static_cast<double>(at(samples_[i], axis)) - low) * scale;
+      const double bin = (static_cast<double>(coordinate(samples_[i], axis)) - low) * scale;
       bins[std::min(static_cast<std::size_t>(bin), kBins - 1)].add(samples_[i]);
     }
     std::array<Group, kBins> above;  // above[i]: the sum of the bins i .. kBins - 1
@@ -182,7 +182,7 @@ class RegionTree::Division {
       if (gain <= most) continue;
       most = gain;
       // Split midway between the two groups, so that few boxes cross the split when they move.
-      const float end_below = at(below.high, axis), begin_above = at(above[i].low, axis);
+      const float end_below = coordinate(below.high, axis), begin_above = coordinate(above[i].low, axis);
       const float midway = 0.5f * end_below + 0.5f * begin_above;
       best.at = midway > end_below ? midway : begin_above;
       best.exists = best.at > end_below;

@@ -11,7 +11,7 @@ namespace {
 constexpr double kFactors[] = {1.0, 1.5, 2.5, 4.0, 8.0, 30.0};  // edges of a cell across the rows, in longest sides
 constexpr double kLeastFactor = 0.25;                           // least edge of a cell along the rows, in longest sides
 constexpr double kMostCubes = 0.7;  // if more of the boxes are long on all axes, no levels are planned
-constexpr double kFew = 0.05;       // all shapes with at most this part of the boxes share a level
+constexpr double kFew = 0.05;       // rare shapes: each has at most this fraction of the boxes
 
 /// Estimates the cost [ns] to find the pairs of level `number` with all other levels, if the level had these cells.
 double costWithOthers(const ShapeLevels& levels, std::size_t number, const Cells& cells) {
@@ -87,7 +87,7 @@ bool isUniform(const Census& census, std::size_t shape) {
 std::size_t shapeOf(const std::array<float, 3>& sides) {
   const float longest = *std::max_element(sides.begin(), sides.end());
   std::size_t shape = 0;
-  for (std::size_t i = 0; i < 3; ++i) shape |= (sides[i] * kernels::kLongPart >= longest ? std::size_t{1} : 0) << i;
+  for (std::size_t i = 0; i < 3; ++i) shape |= (sides[i] * kernels::kLongRatio >= longest ? std::size_t{1} : 0) << i;
   return shape;
 }
 
@@ -110,7 +110,7 @@ ShapeLevels shapeLevelsOf(const ShapeCensuses& shapes, const Window& window) {
   }
   if (others.boxes > 0.0) levels.censuses[levels.count++] = others;
   selectAllCells(levels, window);
-  if (others.boxes == 0.0) {
+  if (others.boxes == 0.0) {  // boxes may turn and get a rare shape later; their level then has one cell
     Cells& one = levels.cells[levels.count++];
     one.count.fill(1.0);
     for (std::size_t i = 0; i < 3; ++i) one.edge[i] = 1.0 + 2.0 * window.length(i);  // longer than the window

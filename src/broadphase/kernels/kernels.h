@@ -120,9 +120,9 @@ struct Branch {
 };
 
 /// The shape of a box is a number: bit i is set if the box is long on axis i, which means that its side there is at
-/// least 1 / kLongPart of its longest side.
+/// least 1 / kLongRatio of its longest side.
 constexpr int kShapes = 8;
-constexpr float kLongPart = 4.0f;
+constexpr float kLongRatio = 4.0f;
 
 /// Input and output of the first pass of a counting sort. The pass finds the cell of each box and counts the boxes of
 /// each cell. "By position" means here: in the order of `order`.
@@ -136,11 +136,11 @@ struct Keying {
   std::uint32_t* counts;       ///< in and out: number of boxes per cell
   const Grid* grids;           ///< in: the grid of each level
   const float* sides;          ///< in: [m] longest side per level, ascending in a region; the last is not read, and
-                               ///< none if level_of_shape is used
+                               ///< none is if level_of_shape is not null
   const std::uint32_t* first_cells;  ///< in: for each level the index of its first cell
   int levels;                        ///< in: number of levels
-  /// in: for each of the kShapes shapes the level of its boxes. If it is null, the longest side of a box selects its
-  /// level. Not used by keyRegions().
+  /// in: the level of each of the kShapes shapes; null: the longest side of a box selects its level. keyRegions() does
+  /// not use it.
   const std::uint8_t* level_of_shape;
   float* sizes;              ///< in and out: [m] 4 floats per level: longest side on x, y, z; 4th unused
   float lower[4], upper[4];  ///< in and out: [m] bounds of the minimum corners; not used by keyRegions()

@@ -147,9 +147,9 @@ struct SimdNeon {
     const Quad y = vdupq_laneq_f32(a, 1), z = vdupq_laneq_f32(a, 2);
     return vgetq_lane_f32(greatest(greatest(a, y), z), 0);  // with plain floats, compilers would generate branches
   }
-  static std::uint32_t longAxes(Quad a, float part) {
+  static std::uint32_t longAxes(Quad a, float ratio) {
     const uint32x4_t bits = {1u, 2u, 4u, 0u};
-    return vaddvq_u32(vandq_u32(vcgeq_f32(vmulq_n_f32(a, part), vdupq_n_f32(greatestOfThree(a))), bits));
+    return vaddvq_u32(vandq_u32(vcgeq_f32(vmulq_n_f32(a, ratio), vdupq_n_f32(greatestOfThree(a))), bits));
   }
   static void cellsOf(Quad quad, const Grid& grid, std::int32_t* cell) {
     // A load of four floats also reads the next member of Grid. Only three of the results are used. The last step turns

@@ -213,11 +213,11 @@ struct SimdPortable {
     const float xy = a.v[0] > a.v[1] ? a.v[0] : a.v[1];
     return xy > a.v[2] ? xy : a.v[2];
   }
-  /// Returns a number whose bit i is set if coordinate i is at least 1 / part of the largest of the three coordinates.
-  static std::uint32_t longAxes(const Quad& a, float part) {
+  /// Returns a number whose bit i is set if coordinate i is at least 1 / ratio of the largest of the three coordinates.
+  static std::uint32_t longAxes(const Quad& a, float ratio) {
     const float most = greatestOfThree(a);
     std::uint32_t bits = 0;
-    for (int i = 0; i < 3; ++i) bits |= (a.v[i] * part >= most ? 1u : 0u) << i;
+    for (int i = 0; i < 3; ++i) bits |= (a.v[i] * ratio >= most ? 1u : 0u) << i;
     return bits;
   }
   /// Computes for each coordinate the index of the cell along its axis. `cell` needs room for four values.

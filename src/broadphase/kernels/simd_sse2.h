@@ -127,9 +127,9 @@ struct SimdSse2 {
     const __m128 y = _mm_shuffle_ps(a, a, _MM_SHUFFLE(1, 1, 1, 1)), z = _mm_shuffle_ps(a, a, _MM_SHUFFLE(2, 2, 2, 2));
     return _mm_cvtss_f32(_mm_max_ss(_mm_max_ss(a, y), z));
   }
-  static std::uint32_t longAxes(Quad a, float part) {
+  static std::uint32_t longAxes(Quad a, float ratio) {
     const __m128 most = _mm_set1_ps(greatestOfThree(a));
-    return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmpge_ps(_mm_mul_ps(a, _mm_set1_ps(part)), most))) & 7u;
+    return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmpge_ps(_mm_mul_ps(a, _mm_set1_ps(ratio)), most))) & 7u;
   }
   static void cellsOf(Quad quad, const Grid& grid, std::int32_t* cell) {
     // A load of four floats also reads the next member of Grid. Only three of the results are used.

@@ -60,7 +60,7 @@ void keyLevels(Keying& k) {
     lower = Simd::least(lower, min);
     upper = Simd::greatest(upper, min);
     int level = 0;
-    if (kBy == LevelBy::shape) level = k.level_of_shape[Simd::longAxes(size, kLongPart)];
+    if (kBy == LevelBy::shape) level = k.level_of_shape[Simd::longAxes(size, kLongRatio)];
     if (kBy == LevelBy::size) {
       const float side = Simd::greatestOfThree(size);
       while (level + 1 < levels && side > k.sides[level]) ++level;

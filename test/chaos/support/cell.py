@@ -196,9 +196,9 @@ class Cell(System):
 
     @staticmethod
     def pause(process):
-        """Stops a child process. Returns when all its threads have stopped, which may take some milliseconds."""
+        """Stops a child process, and waits until all its threads have stopped."""
         os.kill(process.pid, signal.SIGSTOP)
-        os.waitid(os.P_PID, process.pid, os.WSTOPPED)
+        os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)  # also ends if the process has died
 
     @staticmethod
     def resume(process):
