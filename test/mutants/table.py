@@ -139,8 +139,6 @@ CORE = [
      "sorts_with_plan_ % kSortsPerCheck == 0 && isRowCrowded(machine, threads)", "false"),
     ("every fourth id of the list is sampled", "broadphase/hgrid/region_tree.cpp",
      "std::min(i + scattered(samples_.size()) % stride, count - 1)", "i"),
-    ("SSE2 and the portable loops find different long axes", "broadphase/kernels/simd_sse2.h",
-     "_mm_mul_ps(a, _mm_set1_ps(ratio))", "_mm_mul_ps(a, _mm_set1_ps(ratio + 1.0f))"),
     ("a change of a rare shape ends a plan", "broadphase/hgrid/layer_plan.cpp",
      "(by_shape_ ? levels() - 1 : levels())", "levels()"),
     ("a plan stays although many boxes got a rare shape", "broadphase/hgrid/layer_plan.cpp",
