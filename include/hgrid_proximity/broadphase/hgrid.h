@@ -25,7 +25,7 @@ struct GridScale {
 /// Each box is stored in one cell of one level: its longest side selects the level, its minimum corner selects the
 /// cell. If many boxes are thin, the axes on which a box is long may select its level instead. The reach of a level is
 /// the longest side of its boxes. A box of the level that overlaps a given box begins, on each axis, at most one reach
-/// before it. The search for pairs tests every box against its own level and the coarser levels.
+/// before it. The search for pairs tests every box against its own level, and every two levels against each other.
 ///
 /// - Boxes are sorted by cell and stored as a structure of arrays. The boxes in a row of cells are one range of array
 ///   indices, so SIMD instructions test several boxes at a time. Rows mostly lie along the axis on which the world is

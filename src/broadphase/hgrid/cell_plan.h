@@ -20,10 +20,9 @@ float longestSide(const Aabb& box);
 /// with every plan. They are fast with a good plan.
 struct CellPlan {
   static constexpr std::size_t kMostLevels = GridScale::kLevels + 1;
+  /// Values per level, smallest boxes first unless by_shape. An array, because a plan must not allocate.
   template <class Value>
-  using PerLevel =
-      std::array<Value,
-                 kMostLevels>;  // smallest boxes first unless by_shape; an array, because a plan must not allocate
+  using PerLevel = std::array<Value, kMostLevels>;
 
   std::size_t levels = 0;  ///< number of levels
   PerLevel<kernels::Grid> grids{};
