@@ -37,6 +37,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/broad_phase_type.cpp
   src/broadphase/hgrid/bounds_tree.cpp
   src/broadphase/hgrid/box_sample.cpp
+  src/broadphase/hgrid/box_statistics.cpp
   src/broadphase/hgrid/cell_costs.cpp
   src/broadphase/hgrid/cell_plan.cpp
   src/broadphase/hgrid/engine.cpp

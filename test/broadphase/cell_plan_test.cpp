@@ -21,8 +21,12 @@ using test::diagonalOfBoxes;
 using test::Random;
 using test::randomVector;
 
-CellPlan planOf(const std::vector<Aabb>& boxes, Rows rows = Rows::any) {
-  return planFor(boxes, allIds(boxes.size()).data(), boxes.size(), 1.0, rows);
+CellPlanner plannerOf(const std::vector<Aabb>& boxes, Layout layout = Layout::one_region) {
+  return {boxes, allIds(boxes.size()).data(), boxes.size(), 1.0, layout};
+}
+
+CellPlan planOf(const std::vector<Aabb>& boxes, Rows rows = Rows::any, Layout layout = Layout::one_region) {
+  return plannerOf(boxes, layout).plan(rows);
 }
 
 bool hasOneRow(const CellPlan& plan) { return plan.levels == 1 && plan.grids[0].rows == 1; }
@@ -40,7 +44,7 @@ TEST(CellPlan, HasSeveralRowsIfManyBoxesOverlapAlongEachAxis) {
 
 TEST(CellPlan, HasSeveralRowsIfOneRowIsNotAllowed) {
   EXPECT_FALSE(hasOneRow(planOf(diagonalOfBoxes(1500), Rows::several)));
-  EXPECT_FALSE(hasOneRow(planOf(diagonalOfBoxes(1500), Rows::of_region)));
+  EXPECT_FALSE(hasOneRow(planOf(diagonalOfBoxes(1500), Rows::several, Layout::regions)));
 }
 
 TEST(CellPlan, HasOneRowOfBoxesThatAreFarApartOnlyIfTheyAreFew) {
@@ -77,7 +81,7 @@ TEST(CellPlan, HasNoCellWhoseIndexIsNotExactAsAFloat) {
   std::vector<ProxyId> ids(17000000);  // as if there were so many boxes
   for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<ProxyId>(i * boxes.size() / ids.size());
   for (const Rows rows : {Rows::any, Rows::several}) {
-    const CellPlan plan = planFor(boxes, ids.data(), ids.size(), 1.0, rows);
+    const CellPlan plan = CellPlanner(boxes, ids.data(), ids.size(), 1.0, Layout::one_region).plan(rows);
     ASSERT_EQ(plan.levels, 1u);
     EXPECT_GT(plan.grids[0].last[2], 1e7f);
     EXPECT_LT(plan.grids[0].last[2], 16777216.0f);
@@ -88,9 +92,9 @@ TEST(CellPlan, DoesNotDependOnAFewBoxesFarAwayInALargeRegion) {
   Random random(2);
   std::vector<Aabb> boxes;
   for (int i = 0; i < 3000; ++i) boxes.push_back(boxAround(randomVector(random, 0, 20), {1, 1, 1}));
-  const float edge = 1.0f / planOf(boxes, Rows::of_region).grids[0].inverse[1];
+  const float edge = 1.0f / planOf(boxes, Rows::several, Layout::regions).grids[0].inverse[1];
   boxes.push_back(boxAround({1e5, -1e5, 1e5}, {1, 1, 1}));
-  EXPECT_NEAR(1.0f / planOf(boxes, Rows::of_region).grids[0].inverse[1], edge, 0.5 * edge);
+  EXPECT_NEAR(1.0f / planOf(boxes, Rows::several, Layout::regions).grids[0].inverse[1], edge, 0.5 * edge);
 }
 
 /// Returns rods along random axes.
@@ -164,7 +168,7 @@ TEST(CellPlan, HasNoLevelsByShapeIfTheLengthsOfRodsDifferMuch) {
 TEST(LayerPlan, IsNoLongerGoodWhenManyBoxesGetARareShape) {
   const std::vector<Aabb> boxes = rods(20000);
   LayerPlan plan;
-  plan.planOneRegion(boxes, allIds(boxes.size()).data(), boxes.size(), 1.0);
+  plan.planOneRegion(plannerOf(boxes), Rows::any);
   std::vector<kernels::Level> levels(plan.levels());
   levels.back().begin = 19900;
   levels.back().end = 20000;
@@ -176,7 +180,7 @@ TEST(LayerPlan, IsNoLongerGoodWhenManyBoxesGetARareShape) {
 TEST(LayerPlan, StaysGoodWhileAFewBoxesTurn) {
   const std::vector<Aabb> boxes = rods(20000);
   LayerPlan plan;
-  plan.planOneRegion(boxes, allIds(boxes.size()).data(), boxes.size(), 1.0);
+  plan.planOneRegion(plannerOf(boxes), Rows::any);
   ASSERT_EQ(plan.levels(), 4u);
   std::vector<float> sizes(16);
   const auto fits = [&] {
@@ -197,7 +201,7 @@ TEST(LayerPlan, StaysGoodWhileAFewBoxesTurn) {
 TEST(CellPlan, HasNoLevelsByShapeIfTheyDoNotHelp) {
   EXPECT_FALSE(planOf(rods(4095, 30)).by_shape) << "few boxes";
   EXPECT_TRUE(planOf(rods(4096, 30)).by_shape);
-  EXPECT_FALSE(planOf(rods(20000), Rows::of_region).by_shape);
+  EXPECT_FALSE(planOf(rods(20000), Rows::several, Layout::regions).by_shape);
   std::vector<Aabb> boxes = rods(20000);
   Random random(7);
   while (boxes.size() < 80000) boxes.push_back(boxAround(randomVector(random, 0, 50), {0.3, 0.3, 0.3}));

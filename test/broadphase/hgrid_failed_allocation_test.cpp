@@ -288,7 +288,7 @@ TEST(HGridFailedAllocation, APlanHasNoMoreCellsThanItsBoundSays) {
       const std::vector<Aabb> boxes = test::worldOf(test::Family(family), seed);
       std::vector<ProxyId> ids;
       for (ProxyId id = 0; id < boxes.size(); ++id) ids.push_back(id);
-      const CellPlan plan = planFor(boxes, ids.data(), ids.size(), 0.0625);
+      const CellPlan plan = CellPlanner(boxes, ids.data(), ids.size(), 0.0625, Layout::one_region).plan(Rows::any);
       ASSERT_LE(plan.cells, CellPlan::mostCells(ids.size()))
           << test::name(test::Family(family)) << ", seed " << seed << ", " << ids.size() << " boxes";
     }

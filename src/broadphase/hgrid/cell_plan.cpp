@@ -5,22 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
-#include "broadphase/hgrid/box_sample.h"
 #include "broadphase/hgrid/cell_costs.h"
 #include "broadphase/hgrid/shape_levels.h"
-#include "geometry/infinity.h"
 
 namespace hgrid {
 namespace {
 
 using Vector = Census::Vector;
 
-constexpr std::size_t kFewInOneRow = 2048;   // boxes; so few may share a row, even if queries must test all its leaves
-constexpr std::size_t kWorthShapes = 4096;   // boxes; for fewer, planning levels by shape takes too long
-constexpr double kClearlyLess = 0.85;        // levels by shape are used only if they cost less than this fraction
-constexpr std::size_t kWorthSampling = 256;  // boxes; in a smaller region, the window contains all boxes
+constexpr std::size_t kFewInOneRow = 2048;    // boxes; so few may share a row, even if queries must test all its leaves
+constexpr std::size_t kWorthShapes = 4096;    // boxes; for fewer, planning levels by shape takes too long
+constexpr double kClearlyLess = 0.85;         // levels by shape are used only if they cost less than this fraction
+constexpr std::size_t kWorthSampling = 1024;  // boxes; in a smaller region, the window contains all boxes
 
 /// Computes the window. On each axis, it contains the middle 98 % of the minimum corners, and it extends beyond each
 /// end by half of their length. It never extends beyond the outermost corner. So one box that is a million meters away
@@ -67,47 +64,12 @@ void append(CellPlan& plan, const Census& census, const Window& window, const Ce
   plan.sides[number] = static_cast<float>(side);
 }
 
-/// The statistics of some boxes.
-struct BoxStatistics {
-  static constexpr std::size_t kSizes = GridScale::kLevels + 1;
-
-  std::array<Census, kSizes> sizes;  // per size class, smallest boxes first
-  ShapeCensuses shapes;
-  Vector lower, upper;  // [m] bounds of the minimum corners
-};
-
-BoxStatistics statisticsOf(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge) {
-  BoxStatistics statistics;
-  Vector &lower = statistics.lower, &upper = statistics.upper;
-  lower.fill(kInfinity);
-  upper.fill(-kInfinity);
-  for (std::size_t k = 0; k < count; ++k) {
-    const Aabb& box = boxes[ids[k]];
-    double edge = finest_edge;
-    std::size_t number = 0;
-    for (const double side = longestSide(box); number < GridScale::kLevels && side > edge; ++number) {
-      edge *= GridScale::kRatio;
-    }
-    Vector sides;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double low = box.min[static_cast<Eigen::Index>(i)];
-      sides[i] = box.max[static_cast<Eigen::Index>(i)] - low;
-      lower[i] = std::min(lower[i], low);
-      upper[i] = std::max(upper[i], low);
-    }
-    const Eigen::Vector3f size = box.max - box.min;
-    statistics.sizes[number].add(sides);
-    statistics.shapes[shapeOf({size[0], size[1], size[2]})].add(sides);
-  }
-  return statistics;
-}
-
 /// Plans the levels, the coarsest first, and returns the estimated cost [ns] to find all pairs.
 ///
 /// Goes through the size classes from the coarsest to the finest. Each class either shares the level of the class
 /// before, or has a level of its own. The boxes of a level of its own are tested against the coarser levels. The
 /// cheaper way is taken.
-double planLevels(CellPlan& plan, const BoxStatistics& statistics, const Window& window, double finest_edge) {
+double planLevels(CellPlan& plan, const BoxStatistics& statistics, const Window& window) {
   const std::array<Census, BoxStatistics::kSizes>& sizes = statistics.sizes;
   std::array<Census, BoxStatistics::kSizes> finer;  // per size class: this class and all finer ones
   for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -136,7 +98,7 @@ double planLevels(CellPlan& plan, const BoxStatistics& statistics, const Window&
         close(alone);
       }
     }
-    if (coarse.boxes == 0.0) coarse_side = finest_edge * std::pow(GridScale::kRatio, static_cast<double>(i));
+    if (coarse.boxes == 0.0) coarse_side = statistics.finest_edge * std::pow(GridScale::kRatio, static_cast<double>(i));
     coarse.add(sizes[i]);
   }
   close(bestCellsOf(coarse, window));
@@ -176,42 +138,46 @@ void finish(CellPlan& plan) {
 
 }  // namespace
 
-float longestSide(const Aabb& box) { return (box.max - box.min).maxCoeff(); }
+CellPlanner::CellPlanner(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge,
+                         Layout layout)
+    : layout_(layout),
+      statistics_(
+          statisticsOf(boxes, ids, count, finest_edge,
+                       layout == Layout::one_region && count >= kWorthShapes ? Shapes::counted : Shapes::ignored)) {
+  if (count == 0) return;
+  if (layout == Layout::one_region || count >= kWorthSampling) sample_.emplace(boxes, ids, count);
+  window_ =
+      sample_ ? windowOf(*sample_, statistics_.lower, statistics_.upper) : Window{statistics_.lower, statistics_.upper};
+  window_.spare_cells =
+      static_cast<double>(layout == Layout::regions ? CellPlan::kSpareCellsOfRegion : CellPlan::kSpareCells);
+  window_.axes = axesFor(window_, statistics_.all());
+}
 
-CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge, Rows rows) {
-  const bool is_region = rows == Rows::of_region;
+CellPlan CellPlanner::plan(Rows rows) const {
   CellPlan plan;
-  plan.boxes = count;
-  if (count == 0) return plan;
-  const BoxStatistics statistics = statisticsOf(boxes, ids, count, finest_edge);
-  const Vector &lower = statistics.lower, &upper = statistics.upper;
-  std::optional<BoxSample> sample;
-  if (!is_region || count >= kWorthSampling) sample.emplace(boxes, ids, count);
-  Window window = sample ? windowOf(*sample, lower, upper) : Window{lower, upper};
-  window.spare_cells = static_cast<double>(is_region ? CellPlan::kSpareCellsOfRegion : CellPlan::kSpareCells);
-  Census all;
-  for (const Census& level : statistics.sizes) all.add(level);
-  window.axes = axesFor(window, all);
+  plan.boxes = statistics_.boxes;
+  if (plan.boxes == 0) return plan;
   for (std::size_t i = 0; i < 3; ++i) {
-    plan.lower[i] = static_cast<float>(lower[i]);
-    plan.upper[i] = static_cast<float>(upper[i]);
-    plan.windowed = plan.windowed || window.low[i] > lower[i] || window.high[i] < upper[i];
+    plan.lower[i] = static_cast<float>(statistics_.lower[i]);
+    plan.upper[i] = static_cast<float>(statistics_.upper[i]);
+    plan.windowed = plan.windowed || window_.low[i] > statistics_.lower[i] || window_.high[i] < statistics_.upper[i];
   }
-  double cost = planLevels(plan, statistics, window, finest_edge);
-  if (!is_region && count >= kWorthShapes) {
-    const ShapeLevels levels = shapeLevelsOf(statistics.shapes, window);
+  double cost = planLevels(plan, statistics_, window_);
+  if (layout_ == Layout::one_region && plan.boxes >= kWorthShapes) {
+    const ShapeLevels levels = shapeLevelsOf(statistics_.shapes, window_);
     if (levels.cost < kClearlyLess * cost) {
       cost = levels.cost;
-      setLevels(plan, levels, window);
+      setLevels(plan, levels, window_);
     }
   }
-  if (rows == Rows::any) {
-    const Cells one_row = oneRowOf(all, *sample, window);
-    if (one_row.cost < cost && (count <= kFewInOneRow || sample->isThin(one_row.axes[0], all.mean()))) {
+  if (layout_ == Layout::one_region && rows == Rows::any) {
+    const Census all = statistics_.all();
+    const Cells one_row = oneRowOf(all, *sample_, window_);
+    if (one_row.cost < cost && (plan.boxes <= kFewInOneRow || sample_->isThin(one_row.axes[0], all.mean()))) {
       plan.levels = 0;
       plan.by_shape = false;
       plan.followers = one_row.followers;
-      append(plan, all, window, one_row, *std::max_element(all.largest.begin(), all.largest.end()));
+      append(plan, all, window_, one_row, *std::max_element(all.largest.begin(), all.largest.end()));
     }
   }
   finish(plan);

@@ -6,15 +6,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "broadphase/hgrid/box_sample.h"
+#include "broadphase/hgrid/box_statistics.h"
+#include "broadphase/hgrid/cell_costs.h"
 #include "broadphase/kernels/kernels.h"
 #include "hgrid_proximity/broadphase/hgrid.h"
 
 namespace hgrid {
-
-/// Returns the longest of the three sides of a box [m]. It selects the size class of the box.
-float longestSide(const Aabb& box);
 
 /// Says how the boxes of a region are divided into levels, and each level into cells. Searches give the right answers
 /// with every plan. They are fast with a good plan.
@@ -53,16 +54,19 @@ struct CellPlan {
   static std::size_t mostCells(std::size_t count);
 };
 
-/// Says which rows of cells planFor() considers.
+/// Says which rows of cells a plan may have.
 enum class Rows : std::uint8_t {
   any,
-  several,   ///< the boxes do not share one row because few of them follow a box: it was found that many do
-  of_region  ///< the layer has several regions, and the boxes are those of one of them: the same as `several`; also,
-             ///< fewer spare cells are allowed, and if the boxes are few, the window contains all their minimum corners
+  several,  ///< the boxes do not share one row because few of them follow a box: it was found that many do
 };
 
-/// Plans levels and cells for the boxes of `count` ids. A cost model estimates the time of a search for all pairs, and
-/// the function selects the cheapest plan:
+/// Says whether a layer has one region or several. If it has several, the boxes of a plan are those of one of them.
+/// They never share one row, fewer spare cells are allowed, and if the boxes are few, the window contains all their
+/// minimum corners.
+enum class Layout : std::uint8_t { one_region, regions };
+
+/// Plans levels and cells for some boxes. A cost model estimates the time of a search for all pairs, and the planner
+/// selects the cheapest plan:
 ///
 /// - Boxes are divided into size classes by their longest side. From one class to the next, the largest possible side
 ///   grows by the factor GridScale::kRatio. Each class has its own level, or shares a level with other classes if that
@@ -73,14 +77,22 @@ enum class Rows : std::uint8_t {
 /// - If many boxes are thin, boxes of the same frequent shape share a level instead, whatever their size (ShapeLevels).
 ///   This is only considered for at least 4096 boxes in a layer with one region, and used if it clearly costs less.
 /// - All boxes share one level, and its cells are one row along an axis, if each box overlaps only few others along
-/// this
-///   axis. The boxes must be few, or boxes that are near each other along this axis must also be near each other along
-///   the other axes, because queries depend on that.
-///
-/// @param finest_edge  [m] longest box side of the smallest size class
-/// @param rows  what is known about the boxes
-CellPlan planFor(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge,
-                 Rows rows = Rows::any);
+///   this axis. The boxes must be few, or boxes that are near each other along this axis must also be near each other
+///   along the other axes, because queries depend on that.
+class CellPlanner {
+ public:
+  /// Collects the statistics of the boxes of `count` ids. Allocates nothing.
+  /// @param finest_edge  [m] longest box side of the smallest size class
+  CellPlanner(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge, Layout layout);
+  /// Makes a plan. Allocates nothing.
+  CellPlan plan(Rows rows) const;
+
+ private:
+  Layout layout_;
+  BoxStatistics statistics_;
+  std::optional<BoxSample> sample_;  // none for a region with few boxes
+  Window window_;
+};
 
 /// Estimates how many rows of cells of the level `asked` a search visits for one box of the level `asking`.
 double rowsAsked(const kernels::Level& asking, const kernels::Level& asked);

@@ -221,7 +221,7 @@ std::size_t HGrid::size() const { return engine_->stored; }
 double HGrid::edge(int level) const { return engine_->finest_edge * std::pow(GridScale::kRatio, level); }
 
 int HGrid::levelFor(const Aabb& box) const {
-  const double side = longestSide(box);
+  const double side = (box.max - box.min).maxCoeff();
   double edge = engine_->finest_edge;
   int level = 0;
   for (; level < GridScale::kLevels && side > edge; ++level) edge *= GridScale::kRatio;

@@ -132,11 +132,12 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
 /// crowded, divides the layer into regions. If the layer is already divided, first tries to divide it again.
 void Layer::makePlan(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads) {
   if (isDivided() && divide(boxes, finest_edge, machine, threads)) return count(boxes, machine, threads);
-  plan_.planOneRegion(boxes, ids_.data(), count_, finest_edge);
+  const CellPlanner planner(boxes, ids_.data(), count_, finest_edge, Layout::one_region);
+  plan_.planOneRegion(planner, Rows::any);
   count(boxes, machine, threads);
   const Rows rows = isRowCrowded(machine, threads) ? Rows::several : Rows::any;
   if (rows == Rows::several) {
-    plan_.planOneRegion(boxes, ids_.data(), count_, finest_edge, rows);
+    plan_.planOneRegion(planner, rows);
     count(boxes, machine, threads);
   }
   const double crowded = count_ >= kWorthRegions ? crowding(machine, threads) : 0.0;
@@ -145,7 +146,7 @@ void Layer::makePlan(const std::vector<Aabb>& boxes, double finest_edge, const M
     count(boxes, machine, threads);
     if (crowding(machine, threads) < kLessCrowded * crowded) return;
   }
-  plan_.planOneRegion(boxes, ids_.data(), count_, finest_edge, rows);
+  plan_.planOneRegion(planner, rows);
   count(boxes, machine, threads);
 }
 

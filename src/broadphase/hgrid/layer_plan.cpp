@@ -59,13 +59,12 @@ void LayerPlan::append(const CellPlan& plan) {
   cells_ += plan.cells;
 }
 
-void LayerPlan::planOneRegion(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge,
-                              Rows rows) {
-  const CellPlan plan = planFor(boxes, ids, count, finest_edge, rows);
+void LayerPlan::planOneRegion(const CellPlanner& planner, Rows rows) {
+  const CellPlan plan = planner.plan(rows);
   clear();
   append(plan);
   tree_.setLevels(0, 0, static_cast<std::uint32_t>(plan.levels));
-  boxes_ = count;
+  boxes_ = plan.boxes;
   lower_ = plan.lower;
   upper_ = plan.upper;
   windowed_ = plan.windowed;
@@ -84,7 +83,8 @@ bool LayerPlan::planRegions(const std::vector<Aabb>& boxes, ProxyId* ids, std::u
   for (std::size_t region = 0; region < divided.tree_.size(); ++region) {
     const auto first_level = static_cast<std::uint32_t>(divided.levels());
     const CellPlan plan =
-        planFor(boxes, ids + begin[region], begin[region + 1] - begin[region], finest_edge, Rows::of_region);
+        CellPlanner(boxes, ids + begin[region], begin[region + 1] - begin[region], finest_edge, Layout::regions)
+            .plan(Rows::several);
     divided.append(plan);
     divided.tree_.setLevels(region, first_level, static_cast<std::uint32_t>(plan.levels));
   }

@@ -28,11 +28,8 @@ class LayerPlan {
 
   /// Resets the plan to one region without levels.
   void clear();
-  /// Plans one region for the boxes of `count` ids. Allocates nothing.
-  /// @param finest_edge  [m] longest box side of the smallest size class
-  /// @param rows  Rows::any or Rows::several
-  void planOneRegion(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count, double finest_edge,
-                     Rows rows = Rows::any);
+  /// Plans one region for the boxes of the planner. Allocates nothing.
+  void planOneRegion(const CellPlanner& planner, Rows rows);
   /// Plans several regions for the boxes of `count` ids. In each region, boxes are spread about evenly.
   ///
   /// @param ids      in and out: the function sorts them by region

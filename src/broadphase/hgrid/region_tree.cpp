@@ -14,7 +14,7 @@ namespace hgrid {
 namespace {
 
 constexpr std::size_t kLeast = 4;           // smallest number of samples in a region
-constexpr std::size_t kFewSamples = 2048;   // if there are fewer boxes than twice this number, all are samples
+constexpr std::size_t kFewSamples = 256;    // if there are fewer boxes than twice this number, all are samples
 constexpr std::size_t kBoxesPerSample = 4;  // of very many boxes, one of each four successive boxes is a sample
 // [nats] The cost of a split: kGain, plus kGainPerSample for each sample. A split is made only if the log-likelihood
 // rises by more than its cost. For random samples of evenly spread boxes, the log-likelihood rises by less.
@@ -23,7 +23,7 @@ constexpr double kGainPerSample = 0.25, kGain = 40.0;
 using Corner = Eigen::Array4f;  // the 4th value is 0; four values are one register
 
 /// The number and the bounds [m] of some minimum corners.
-struct Group {
+struct CornerGroup {
   double count = 0.0;
   Corner low = Corner::Constant(kFloatInfinity), high = Corner::Constant(-kFloatInfinity);
 
@@ -32,7 +32,7 @@ struct Group {
     low = low.min(corner);
     high = high.max(corner);
   }
-  void add(const Group& other) {
+  void add(const CornerGroup& other) {
     count += other.count;
     low = low.min(other.low);
     high = high.max(other.high);
@@ -44,7 +44,7 @@ struct Split {
   std::size_t axis = 0;
   float at = 0.0f;
   bool exists = false;
-  Group below, above;
+  CornerGroup below, above;
 };
 
 }  // namespace
@@ -72,7 +72,7 @@ class RegionTree::Division {
   RegionTree tree() {
     RegionTree tree;
     if (samples_.size() < 2 * kLeast) return tree;
-    Group all;
+    CornerGroup all;
     for (const Corner& corner : samples_) all.add(corner);
     divide(0, samples_.size(), all, 0);
     tree.branches_.clear();
@@ -95,13 +95,13 @@ class RegionTree::Division {
 
   static float coordinate(const Corner& corner, std::size_t axis) { return corner[static_cast<Eigen::Index>(axis)]; }
   /// Returns how long the bounds of a group are on an axis [m].
-  static double extent(const Group& group, std::size_t axis) {
+  static double extent(const CornerGroup& group, std::size_t axis) {
     return static_cast<double>(coordinate(group.high, axis)) - coordinate(group.low, axis);
   }
 
   /// Returns the log-likelihood of the corners of a group, if corners are spread evenly within the bounds of the group.
   /// A summand that is the same for all divisions is left out.
-  double likelihood(const Group& group) const {
+  double likelihood(const CornerGroup& group) const {
     if (group.count == 0.0) return 0.0;
     double volume = 1.0;
     for (std::size_t i = 0; i < 3; ++i) volume *= extent(group, i) + side_[i];
@@ -109,11 +109,11 @@ class RegionTree::Division {
   }
 
   /// Returns the cost of a split of a group.
-  static double cost(const Group& group) { return kGainPerSample * group.count + kGain; }
+  static double cost(const CornerGroup& group) { return kGainPerSample * group.count + kGain; }
 
   /// Returns an upper bound of the gain that any number of splits of a group can have: no volume is below that of a
   /// mean box.
-  double mostGain(const Group& group) const {
+  double mostGain(const CornerGroup& group) const {
     double ratio = 1.0;
     for (std::size_t i = 0; i < 3; ++i) ratio *= (extent(group, i) + side_[i]) / side_[i];
     return group.count * std::log(ratio);
@@ -122,7 +122,7 @@ class RegionTree::Division {
   /// Adds a part with the samples begin .. end - 1. Splits the part if the gain is more than the cost of the split.
   /// @param group  number and bounds of these samples
   /// @returns the index of the part
-  std::size_t divide(std::size_t begin, std::size_t end, const Group& group, int depth) {
+  std::size_t divide(std::size_t begin, std::size_t end, const CornerGroup& group, int depth) {
     const std::size_t number = parts_.size();
     parts_.emplace_back();
     const double alone = likelihood(group);
@@ -146,8 +146,8 @@ class RegionTree::Division {
   }
 
   /// Returns the best split of a few. All of them are on the axis on which the group is longest, in mean box sides.
-  Split bestSplit(const Group& group, std::size_t begin, std::size_t end) const {
-    constexpr std::size_t kBins = 32;
+  Split bestSplit(const CornerGroup& group, std::size_t begin, std::size_t end) const {
+    constexpr std::size_t kBins = 16;
     Split best;
     double longest = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -160,20 +160,20 @@ class RegionTree::Division {
     const std::size_t axis = best.axis;
     const double low = coordinate(group.low, axis), length = extent(group, axis);
     if (!(length > 0.0)) return best;
-    std::array<Group, kBins> bins;
+    std::array<CornerGroup, kBins> bins;
     const double scale = kBins / length;
     for (std::size_t i = begin; i < end; ++i) {
       const double bin = (static_cast<double>(coordinate(samples_[i], axis)) - low) * scale;
       bins[std::min(static_cast<std::size_t>(bin), kBins - 1)].add(samples_[i]);
     }
-    std::array<Group, kBins> above;  // above[i]: the sum of the bins i .. kBins - 1
+    std::array<CornerGroup, kBins> above;  // above[i]: the sum of the bins i .. kBins - 1
     above[kBins - 1] = bins[kBins - 1];
     for (std::size_t i = kBins - 1; i-- > 0;) {
       above[i] = above[i + 1];
       above[i].add(bins[i]);
     }
     double most = -std::numeric_limits<double>::infinity();
-    Group below;
+    CornerGroup below;
     for (std::size_t i = 1; i < kBins; ++i) {
       if (bins[i - 1].count == 0.0) continue;  // the same two groups as for the split before
       below.add(bins[i - 1]);
