@@ -3,8 +3,23 @@
 #include "broadphase/hgrid/box_sample.h"
 
 #include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "geometry/infinity.h"
 
 namespace hgrid {
+namespace {
+
+/// Inserts a value into a sorted array and drops the last value of the array.
+template <std::size_t kCount, class Before>
+void insertSorted(std::array<float, kCount>& sorted, float value, Before before) {
+  for (float& other : sorted) {
+    if (before(value, other)) std::swap(value, other);
+  }
+}
+
+}  // namespace
 
 BoxSample::BoxSample(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count) {
   size_ = std::min(count, kMost);
@@ -12,14 +27,32 @@ BoxSample::BoxSample(const std::vector<Aabb>& boxes, const ProxyId* ids, std::si
     const std::size_t begin = i * count / size_, end = (i + 1) * count / size_;
     const Aabb& box = boxes[ids[begin + scattered(i) % (end - begin)]];
     corners_[i] = {box.min[0], box.min[1], box.min[2]};
-    for (std::size_t axis = 0; axis < 3; ++axis) sorted_[axis][i] = corners_[i][axis];
   }
-  for (auto& values : sorted_) std::sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(size_));
   boxes_per_sampled_box_ = static_cast<double>(count) / static_cast<double>(size_);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // The lowest and the highest values, the outermost first. Few values are among them, so few are inserted.
+    std::array<float, kMost / 100 + 1> lowest, highest;
+    lowest.fill(kFloatInfinity);
+    highest.fill(-kFloatInfinity);
+    for (std::size_t i = 0; i < size_; ++i) {
+      const float value = corners_[i][axis];
+      if (value < lowest.back()) insertSorted(lowest, value, std::less<>());
+      if (value > highest.back()) insertSorted(highest, value, std::greater<>());
+    }
+    low_[axis] = lowest[size_ / 100];
+    high_[axis] = highest[size_ / 100];
+  }
+}
+
+std::array<float, BoxSample::kMost> BoxSample::onAxis(std::size_t axis) const {
+  std::array<float, kMost> values;
+  for (std::size_t i = 0; i < size_; ++i) values[i] = corners_[i][axis];
+  return values;
 }
 
 double BoxSample::followers(std::size_t axis, double length) const {
-  const auto& values = sorted_[axis];
+  std::array<float, kMost> values = onAxis(axis);
+  std::sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(size_));
   std::size_t end = 0, sum = 0;
   for (std::size_t i = 0; i < size_; ++i) {
     while (end < size_ && values[end] <= static_cast<double>(values[i]) + length) ++end;

@@ -23,8 +23,8 @@ constexpr std::uint64_t scattered(std::uint64_t number) {
   return z ^ (z >> 31);
 }
 
-/// A sample of boxes. It stores their minimum corners, also sorted along each axis, and estimates from them how all
-/// boxes are distributed along an axis, even if they are spread unevenly. Allocates nothing.
+/// A sample of boxes. It stores their minimum corners and estimates from them how all boxes are distributed along an
+/// axis, even if they are spread unevenly. Allocates nothing.
 class BoxSample {
  public:
   /// Samples at most 256 of the boxes of `count` ids. `count` must be at least 1.
@@ -32,10 +32,10 @@ class BoxSample {
 
   /// Estimates the coordinate [m] below which 1 % of the minimum corners are. For fewer than 100 boxes, returns the
   /// lowest of them.
-  double low(std::size_t axis) const { return sorted_[axis][size_ / 100]; }
+  double low(std::size_t axis) const { return low_[axis]; }
   /// Estimates the coordinate [m] above which 1 % of the minimum corners are. For fewer than 100 boxes, returns the
   /// highest of them.
-  double high(std::size_t axis) const { return sorted_[axis][size_ - 1 - size_ / 100]; }
+  double high(std::size_t axis) const { return high_[axis]; }
   /// Estimates how many boxes follow a box along the axis, on average: their minimum is at most `length` [m] above the
   /// minimum of the box. The estimate is too low if the ids are ordered so that the sample has one box of each cluster.
   double followers(std::size_t axis, double length) const;
@@ -48,8 +48,11 @@ class BoxSample {
  private:
   static constexpr std::size_t kMost = 256;  // largest number of sampled boxes
 
+  /// Returns the coordinates of the sampled minimum corners on an axis, in the order of the ids.
+  std::array<float, kMost> onAxis(std::size_t axis) const;
+
   std::array<std::array<float, 3>, kMost> corners_;  // in the order of the ids
-  std::array<std::array<float, kMost>, 3> sorted_;   // by axis
+  std::array<float, 3> low_, high_;                  // see low() and high()
   std::size_t size_ = 0;
   double boxes_per_sampled_box_;
 };

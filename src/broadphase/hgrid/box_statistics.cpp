@@ -3,10 +3,26 @@
 #include "broadphase/hgrid/box_statistics.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 
 #include "geometry/infinity.h"
 
 namespace hgrid {
+namespace {
+
+/// Returns the smallest k with ratio <= GridScale::kRatio^k, at most GridScale::kLevels. Reads the exponent of `ratio`:
+/// a loop over the size classes would mispredict its end if the sizes of boxes differ.
+/// @param ratio  at least 0; may be infinite
+std::size_t sizeClassOf(float ratio) {
+  static_assert(GridScale::kRatio == 4.0, "a size class spans two powers of 2");
+  std::uint32_t bits;
+  std::memcpy(&bits, &ratio, sizeof bits);
+  const int exponent = static_cast<int>((bits + 0x7fffffu) >> 23) - 127;  // of the smallest power of 2 >= ratio
+  return static_cast<std::size_t>(std::clamp((exponent + 1) / 2, 0, GridScale::kLevels));
+}
+
+}  // namespace
 
 Census BoxStatistics::all() const {
   Census all;
@@ -22,14 +38,11 @@ BoxStatistics statisticsOf(const std::vector<Aabb>& boxes, const ProxyId* ids, s
   Census::Vector &lower = statistics.lower, &upper = statistics.upper;
   lower.fill(kInfinity);
   upper.fill(-kInfinity);
+  const auto per_edge = static_cast<float>(1.0 / finest_edge);  // exact: the edge is a power of 2
   for (std::size_t k = 0; k < count; ++k) {
     const Aabb& box = boxes[ids[k]];
     const Eigen::Vector3f size = box.max - box.min;
-    double edge = finest_edge;
-    std::size_t number = 0;
-    for (const double side = size.maxCoeff(); number < GridScale::kLevels && side > edge; ++number) {
-      edge *= GridScale::kRatio;
-    }
+    const std::size_t number = sizeClassOf(size.maxCoeff() * per_edge);
     Census::Vector sides;
     for (std::size_t i = 0; i < 3; ++i) {
       const double low = box.min[static_cast<Eigen::Index>(i)];

@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "broadphase/hgrid/cell_costs.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace hgrid {
 namespace {
@@ -18,7 +20,10 @@ constexpr double kMostCellsOnAxis = 16777214.0;  // Grid::last must be exact as 
 constexpr double kMostCellsAlongBox = 12.0;      // along a row, at most so many cells per longest box
 constexpr double kLanes = 8.0;  // boxes per test; one value for all instruction sets, so that all make the same plan
 
-double cellsAlong(double length, double edge) { return std::floor(length / edge) + 1.0; }
+/// Returns how many cells cover a length. Converts to an integer, because std::floor() is slower.
+double cellsAlong(double length, double edge) {
+  return static_cast<double>(static_cast<std::int64_t>(std::min(length / edge, 1e15))) + 1.0;
+}
 
 }  // namespace
 

@@ -17,7 +17,7 @@ using Vector = Census::Vector;
 constexpr std::size_t kFewInOneRow = 2048;    // boxes; so few may share a row, even if queries must test all its leaves
 constexpr std::size_t kWorthShapes = 4096;    // boxes; for fewer, planning levels by shape takes too long
 constexpr double kClearlyLess = 0.85;         // levels by shape are used only if they cost less than this fraction
-constexpr std::size_t kWorthSampling = 1024;  // boxes; in a smaller region, the window contains all boxes
+constexpr std::size_t kWorthSampling = 256;  // boxes; in a smaller region, the window contains all boxes
 
 /// Computes the window. On each axis, it contains the middle 98 % of the minimum corners, and it extends beyond each
 /// end by half of their length. It never extends beyond the outermost corner. So one box that is a million meters away

@@ -14,11 +14,16 @@ namespace hgrid {
 namespace {
 
 constexpr std::size_t kLeast = 4;           // smallest number of samples in a region
-constexpr std::size_t kFewSamples = 256;    // if there are fewer boxes than twice this number, all are samples
+constexpr std::size_t kFewSamples = 500;    // if there are fewer boxes than twice this number, all are samples
 constexpr std::size_t kBoxesPerSample = 4;  // of very many boxes, one of each four successive boxes is a sample
 // [nats] The cost of a split: kGain, plus kGainPerSample for each sample. A split is made only if the log-likelihood
 // rises by more than its cost. For random samples of evenly spread boxes, the log-likelihood rises by less.
 constexpr double kGainPerSample = 0.25, kGain = 40.0;
+// A split that gains less than this fraction of its cost is fruitless. If more successive splits than kMostFruitless
+// are fruitless, a group is not split further. There is one for each axis: splits between groups of boxes leave out the
+// space between them, so they gain something at once.
+constexpr double kFruitful = 0.25;
+constexpr int kMostFruitless = 3;
 
 using Corner = Eigen::Array4f;  // the 4th value is 0; four values are one register
 
@@ -44,6 +49,7 @@ struct Split {
   std::size_t axis = 0;
   float at = 0.0f;
   bool exists = false;
+  double likelihood = -std::numeric_limits<double>::infinity();  // log-likelihood of both parts
   CornerGroup below, above;
 };
 
@@ -122,7 +128,7 @@ class RegionTree::Division {
   /// Adds a part with the samples begin .. end - 1. Splits the part if the gain is more than the cost of the split.
   /// @param group  number and bounds of these samples
   /// @returns the index of the part
-  std::size_t divide(std::size_t begin, std::size_t end, const CornerGroup& group, int depth) {
+  std::size_t divide(std::size_t begin, std::size_t end, const CornerGroup& group, int depth, int fruitless = 0) {
     const std::size_t number = parts_.size();
     parts_.emplace_back();
     const double alone = likelihood(group);
@@ -130,12 +136,14 @@ class RegionTree::Division {
     if (end - begin < 2 * kLeast || depth >= kMostDepth || mostGain(group) <= cost(group)) return number;
     const Split split = bestSplit(group, begin, end);
     if (!split.exists) return number;
+    fruitless = split.likelihood - alone < kFruitful * cost(group) ? fruitless + 1 : 0;
+    if (fruitless > kMostFruitless) return number;
     const auto middle = std::partition(
         samples_.begin() + static_cast<std::ptrdiff_t>(begin), samples_.begin() + static_cast<std::ptrdiff_t>(end),
         [&split](const Corner& corner) { return coordinate(corner, split.axis) < split.at; });
     const auto cut = static_cast<std::size_t>(middle - samples_.begin());
-    const std::size_t below = divide(begin, cut, split.below, depth + 1);
-    const std::size_t above = divide(cut, end, split.above, depth + 1);
+    const std::size_t below = divide(begin, cut, split.below, depth + 1, fruitless);
+    const std::size_t above = divide(cut, end, split.above, depth + 1, fruitless);
     const double divided = parts_[below].likelihood + parts_[above].likelihood - cost(group);
     if (divided <= alone) {
       parts_.resize(number + 1);
@@ -172,15 +180,14 @@ class RegionTree::Division {
       above[i] = above[i + 1];
       above[i].add(bins[i]);
     }
-    double most = -std::numeric_limits<double>::infinity();
     CornerGroup below;
     for (std::size_t i = 1; i < kBins; ++i) {
       if (bins[i - 1].count == 0.0) continue;  // the same two groups as for the split before
       below.add(bins[i - 1]);
       if (below.count < kLeast || above[i].count < kLeast) continue;
-      const double gain = likelihood(below) + likelihood(above[i]);
-      if (gain <= most) continue;
-      most = gain;
+      const double likelihoods = likelihood(below) + likelihood(above[i]);
+      if (likelihoods <= best.likelihood) continue;
+      best.likelihood = likelihoods;
       // Split midway between the two groups, so that few boxes cross the split when they move.
       const float end_below = coordinate(below.high, axis), begin_above = coordinate(above[i].low, axis);
       const float midway = 0.5f * end_below + 0.5f * begin_above;
