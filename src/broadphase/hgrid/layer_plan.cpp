@@ -9,20 +9,47 @@
 namespace hgrid {
 namespace {
 
-/// Sorts the ids by region. @returns for each region the index of its first id, and at last the number of ids
-std::vector<std::size_t> sortByRegion(const RegionTree& tree, const std::vector<Aabb>& boxes, ProxyId* ids,
-                                      std::uint32_t* scratch, std::size_t count) {
-  std::vector<std::size_t> next(tree.size() + 1, 0);
-  const std::vector<ProxyId> unsorted(ids, ids + count);
-  for (std::size_t i = 0; i < count; ++i) {
-    scratch[i] = tree.regionOf(boxes[unsorted[i]].min.data());
-    ++next[scratch[i] + 1];
+/// Sorts the ids by region. Ids of the same region keep their order.
+class SortByRegion {
+ public:
+  /// @param scratch  overwritten; at least as many values as there are ids
+  SortByRegion(const RegionTree& tree, const std::vector<Aabb>& boxes, ProxyId* ids, std::uint32_t* scratch)
+      : tree_(tree), boxes_(boxes), ids_(ids), scratch_(scratch) {}
+
+  /// @returns for each region the index of its first id, and at last the number of ids
+  std::vector<std::size_t> operator()(std::size_t count) {
+    begin_.reserve(tree_.size() + 1);
+    sort(0, 0, count);
+    begin_.push_back(count);
+    return std::move(begin_);
   }
-  for (std::size_t region = 0; region < tree.size(); ++region) next[region + 1] += next[region];
-  const std::vector<std::size_t> begin = next;
-  for (std::size_t i = 0; i < count; ++i) ids[next[scratch[i]]++] = unsorted[i];
-  return begin;
-}
+
+ private:
+  /// Sorts the ids begin .. end - 1, which are in the part of space of a branch. Regions are numbered from below to
+  /// above.
+  void sort(std::uint32_t number, std::size_t begin, std::size_t end) {
+    const kernels::Branch& branch = tree_.branches()[number];
+    if (branch.axis < 0) return begin_.push_back(begin);
+    std::size_t middle = begin, above = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      // Store the id in both places and advance one of them; a branch here would be mispredicted.
+      const ProxyId id = ids_[i];
+      const bool is_below = boxes_[id].min[branch.axis] < branch.split;
+      ids_[middle] = scratch_[above] = id;
+      middle += is_below;
+      above += !is_below;
+    }
+    std::copy_n(scratch_, above, ids_ + middle);
+    sort(branch.below, begin, middle);
+    sort(branch.above, middle, end);
+  }
+
+  const RegionTree& tree_;
+  const std::vector<Aabb>& boxes_;
+  ProxyId* ids_;
+  std::uint32_t* scratch_;
+  std::vector<std::size_t> begin_;
+};
 
 }  // namespace
 
@@ -79,7 +106,7 @@ bool LayerPlan::planRegions(const std::vector<Aabb>& boxes, ProxyId* ids, std::u
   LayerPlan divided;
   divided.tree_ = RegionTree::dividing(boxes, ids, count);
   if (!divided.isDivided()) return false;
-  const std::vector<std::size_t> begin = sortByRegion(divided.tree_, boxes, ids, scratch, count);
+  const std::vector<std::size_t> begin = SortByRegion(divided.tree_, boxes, ids, scratch)(count);
   for (std::size_t region = 0; region < divided.tree_.size(); ++region) {
     const auto first_level = static_cast<std::uint32_t>(divided.levels());
     const CellPlan plan =
