@@ -14,9 +14,9 @@ namespace {
 
 using Vector = Census::Vector;
 
-constexpr std::size_t kFewInOneRow = 2048;    // boxes; so few may share a row, even if queries must test all its leaves
-constexpr std::size_t kWorthShapes = 4096;    // boxes; for fewer, planning levels by shape takes too long
-constexpr double kClearlyLess = 0.85;         // levels by shape are used only if they cost less than this fraction
+constexpr std::size_t kFewInOneRow = 2048;   // boxes; so few may share a row, even if queries must test all its leaves
+constexpr std::size_t kWorthShapes = 4096;   // boxes; for fewer, planning levels by shape takes too long
+constexpr double kClearlyLess = 0.85;        // levels by shape are used only if they cost less than this fraction
 constexpr std::size_t kWorthSampling = 256;  // boxes; in a smaller region, the window contains all boxes
 
 /// Computes the window. On each axis, it contains the middle 98 % of the minimum corners, and it extends beyond each
@@ -76,32 +76,41 @@ double planLevels(CellPlan& plan, const BoxStatistics& statistics, const Window&
     if (i > 0) finer[i] = finer[i - 1];
     finer[i].add(sizes[i]);
   }
-  Census coarse;
+  Census coarse;  // the boxes of the current level
+  Cells cells;    // the best cells for them
   double coarse_side = 0.0, cost = 0.0;
-  const auto close = [&](const Cells& cells) {
+  const auto close = [&] {
     append(plan, coarse, window, cells, coarse_side);
     cost += cells.cost;
     coarse = Census{};
   };
   for (std::size_t i = sizes.size(); i-- > 0;) {
     if (sizes[i].boxes == 0.0) continue;
-    if (coarse.boxes > 0.0) {
+    const Cells own = bestCellsOf(sizes[i], window);
+    bool share = coarse.boxes > 0.0;
+    if (share) {
       Census together = coarse;
       together.add(sizes[i]);
-      const Cells alone = bestCellsOf(coarse, window), shared = bestCellsOf(together, window);
-      const double asking = costOfAsking(finer[i], coarse, alone);
-      const double apart = alone.cost + bestCellsOf(sizes[i], window).cost + asking;
+      const Cells shared = bestCellsOf(together, window);
+      const double asking = costOfAsking(finer[i], coarse, cells);
+      const double apart = cells.cost + own.cost + asking;
       double joined = shared.cost;
       if (i > 0 && finer[i - 1].boxes > 0.0) joined += costOfAsking(finer[i - 1], together, shared);
       if (apart < joined) {
         cost += asking;
-        close(alone);
+        close();
+        share = false;
+      } else {
+        cells = shared;
       }
     }
-    if (coarse.boxes == 0.0) coarse_side = statistics.finest_edge * std::pow(GridScale::kRatio, static_cast<double>(i));
+    if (!share) {
+      cells = own;
+      coarse_side = statistics.finest_edge * std::pow(GridScale::kRatio, static_cast<double>(i));
+    }
     coarse.add(sizes[i]);
   }
-  close(bestCellsOf(coarse, window));
+  close();
   return cost;
 }
 

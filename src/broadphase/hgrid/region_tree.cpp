@@ -22,6 +22,7 @@ constexpr double kGainPerSample = 0.25, kGain = 40.0;
 // A split that gains less than this fraction of its cost is fruitless. If more successive splits than kMostFruitless
 // are fruitless, a group is not split further. There is one for each axis: splits between groups of boxes leave out the
 // space between them, so they gain something at once.
+constexpr std::size_t kFewInGroup = 64;
 constexpr double kFruitful = 0.25;
 constexpr int kMostFruitless = 3;
 
@@ -134,7 +135,7 @@ class RegionTree::Division {
     const double alone = likelihood(group);
     parts_[number].likelihood = alone;
     if (end - begin < 2 * kLeast || depth >= kMostDepth || mostGain(group) <= cost(group)) return number;
-    const Split split = bestSplit(group, begin, end);
+    const Split split = end - begin < kFewInGroup ? bestSplit<8>(group, begin, end) : bestSplit<16>(group, begin, end);
     if (!split.exists) return number;
     fruitless = split.likelihood - alone < kFruitful * cost(group) ? fruitless + 1 : 0;
     if (fruitless > kMostFruitless) return number;
@@ -154,8 +155,8 @@ class RegionTree::Division {
   }
 
   /// Returns the best split of a few. All of them are on the axis on which the group is longest, in mean box sides.
+  template <std::size_t kBins>
   Split bestSplit(const CornerGroup& group, std::size_t begin, std::size_t end) const {
-    constexpr std::size_t kBins = 16;
     Split best;
     double longest = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
