@@ -55,6 +55,16 @@ void Occupancy::set(const std::vector<kernels::Level>& levels) {
       for (std::uint32_t y = low[1]; y <= high[1]; ++y) rows_[z * kAcross + y] |= bits;
     }
   }
+  near_rows_.resize(kRows);
+  for (std::uint32_t z = 0; z < kAcross; ++z) {
+    const std::uint32_t next_z = (z + 1) % kAcross;
+    for (std::uint32_t y = 0; y < kAcross; ++y) {
+      const std::uint32_t next_y = (y + 1) % kAcross;
+      const std::uint32_t bits = rows_[z * kAcross + y] | rows_[z * kAcross + next_y] | rows_[next_z * kAcross + y] |
+                                 rows_[next_z * kAcross + next_y];
+      near_rows_[z * kAcross + y] = bits | bits >> 1 | bits << (kAcross - 1);
+    }
+  }
 }
 
 // Divides the line into pieces that are so short that the bounds of a piece, grown by the radius, cover at most two
@@ -62,11 +72,12 @@ void Occupancy::set(const std::vector<kernels::Level>& levels) {
 // would be mispredicted. Outside the bounds of all boxes, the indices of the cells wrap around. There the search may
 // only find too much.
 bool Occupancy::isOnLine(const kernels::Line& line) const {
-  constexpr double kFarthest = 16384.0;    // [cells] largest coordinate of a fixed-point number
-  constexpr double kMostPieces = 16.0;     // of a longer line, a part may be beyond the bounds of all boxes
+  constexpr double kFarthest = 16384.0;  // [cells] largest coordinate of a fixed-point number
+  constexpr double kFewPieces = 4.0,
+                   kMostPieces = 16.0;     // of a longer line, a part may be beyond the bounds of all boxes
   constexpr double kMargin = 1.0 / 256.0;  // [cells] allows for the rounding to Fixed
   const double widest = line.around * inverse_ + slack_ + kMargin;
-  const double per_piece = 1.0 / (1.0 - 2.0 * kMargin - 2.0 * widest);  // reciprocal of the longest piece [cells]
+  const double longest_piece = 1.0 - 2.0 * kMargin - 2.0 * widest;  // [cells]
   double from[3], step[3], longest = 0.0, farthest = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     from[axis] = cells(line.from[axis], axis);
@@ -75,39 +86,27 @@ bool Occupancy::isOnLine(const kernels::Line& line) const {
     longest = longest < length ? length : longest;
     farthest += std::abs(from[axis]) + length;
   }
-  const double wanted = longest * per_piece;
   // False if a value is NaN.
-  const bool fits = (farthest < kFarthest) & (widest < 0.4) & (wanted < kMostPieces);
+  const bool fits = (farthest < kFarthest) & (widest < 0.4) & (longest < kMostPieces * longest_piece);
   if (!fits) return true;
-  // The number of pieces is a power of two, so that it rarely changes from one query to the next.
-  constexpr double kHalfOfPiece[] = {0.5, 0.5 / 2, 0.5 / 4, 0.5 / 8, 0.5 / 16};
-  const int doublings = wanted < 1.0 ? 0 : 32 - __builtin_clz(static_cast<std::uint32_t>(wanted));
-  const double part = kHalfOfPiece[doublings];
-  const std::int32_t pieces = 1 << doublings;
-  Fixed low[3], high[3], move[3];
+  // Few different numbers of pieces, because the end of the loop is mispredicted when the number changes.
+  const bool many = longest > kFewPieces * longest_piece;
+  const double part = many ? 0.5 / kMostPieces : 0.5 / kFewPieces;
+  const int pieces = many ? static_cast<int>(kMostPieces) : static_cast<int>(kFewPieces);
+  Fixed low[3], move[3];
   for (int axis = 0; axis < 3; ++axis) {
-    const double half = step[axis] * part, middle = from[axis] + half;
-    const double reach = std::abs(half) + widest;
+    const double half = step[axis] * part;
     move[axis] = static_cast<Fixed>(half * (2.0 * kOne));
-    low[axis] = static_cast<Fixed>((middle - reach) * kOne);
-    high[axis] = static_cast<Fixed>((middle + reach) * kOne);
+    low[axis] = static_cast<Fixed>((from[axis] + half - std::abs(half) - widest) * kOne);
   }
-  const std::uint32_t* const rows = rows_.data();
+  const std::uint32_t* const rows = near_rows_.data();
   std::uint32_t found = 0;
-  for (std::int32_t i = 0; i < pieces; ++i) {
-    const auto low_y = static_cast<std::uint32_t>(low[1] >> 16) & 31u,
-               high_y = static_cast<std::uint32_t>(high[1] >> 16) & 31u;
-    const auto low_z = static_cast<std::uint32_t>(low[2] >> 11) & 992u,
-               high_z = static_cast<std::uint32_t>(high[2] >> 11) & 992u;
-    const std::uint32_t bits = 1u << (static_cast<std::uint32_t>(low[0] >> 16) & 31u) |
-                               1u << (static_cast<std::uint32_t>(high[0] >> 16) & 31u);
-    found |= bits & (rows[low_z | low_y] | rows[low_z | high_y] | rows[high_z | low_y] | rows[high_z | high_y]);
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] += move[axis];
-      high[axis] += move[axis];
-    }
+  for (int i = 0; i < pieces; ++i) {
+    const auto y = static_cast<std::uint32_t>(low[1] >> 16) & 31u, z = static_cast<std::uint32_t>(low[2] >> 11) & 992u;
+    found |= rows[z | y] >> (static_cast<std::uint32_t>(low[0] >> 16) & 31u);
+    for (int axis = 0; axis < 3; ++axis) low[axis] += move[axis];
   }
-  return found != 0;
+  return (found & 1) != 0;
 }
 
 }  // namespace hgrid

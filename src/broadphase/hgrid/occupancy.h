@@ -21,7 +21,10 @@ namespace hgrid {
 class Occupancy {
  public:
   /// Allocates the memory that set() needs.
-  void reserve() { rows_.reserve(kRows); }
+  void reserve() {
+    rows_.reserve(kRows);
+    near_rows_.reserve(kRows);
+  }
   /// From now on, all space may have boxes. Allocates nothing.
   void clear() { rows_.clear(); }
   /// Computes the bits for these levels. If most cells are occupied, works like clear(), because then the bits are of
@@ -53,7 +56,7 @@ class Occupancy {
   bool mayTouch(const kernels::Line& line) const { return rows_.empty() || isOnLine(line); }
 
   /// Returns the allocated memory [bytes].
-  std::size_t bytes() const { return rows_.capacity() * sizeof(std::uint32_t); }
+  std::size_t bytes() const { return (rows_.capacity() + near_rows_.capacity()) * sizeof(std::uint32_t); }
 
  private:
   static constexpr std::uint32_t kAcross = 32, kRows = kAcross * kAcross;
@@ -79,6 +82,9 @@ class Occupancy {
   // Each number holds the bits of one row of cells along x. Rows follow each other along y, then z. If there are none,
   // all space may have boxes.
   std::vector<std::uint32_t> rows_;
+  // As many rows. A bit is 1 if the cell or its next neighbor on an axis, or on several axes, is occupied. So one bit
+  // answers for two cells per axis. The neighbor of the last cell is the first.
+  std::vector<std::uint32_t> near_rows_;
 };
 
 }  // namespace hgrid
