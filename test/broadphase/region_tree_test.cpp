@@ -79,6 +79,30 @@ TEST(RegionTree, GivesEachHeapARegionOfItsOwn) {
   }
 }
 
+/// The first splits of such a world gain almost nothing, because the heaps are everywhere.
+TEST(RegionTree, FindsManySmallHeapsThatAreSpreadEvenly) {
+  Random random(1);
+  std::vector<Aabb> boxes = heaps(random, 300, 100);
+  EXPECT_GE(treeOf(boxes).size(), 200u);
+}
+
+/// Claim: a coordinate that is not representable as a difference of floats does no harm.
+TEST(RegionTree, OfBoxesAtTheEndsOfTheRangeOfFloat) {
+  Random random(1);
+  for (const float end : {3e38f, 1e-44f}) {
+    std::vector<Aabb> boxes;
+    for (int i = 0; i < 1000; ++i) {
+      Aabb box;
+      for (int axis = 0; axis < 3; ++axis) box.min[axis] = random.chance(0.5) ? end : -end;
+      if (i % 3 == 0) box.min = randomVector(random, -1, 1).cast<float>() * end;
+      box.max = box.min;
+      boxes.push_back(box);
+    }
+    const RegionTree tree = treeOf(boxes);
+    for (const Aabb& box : boxes) EXPECT_LT(tree.regionOf(box.min.data()), tree.size());
+  }
+}
+
 TEST(RegionTree, PutsEveryCornerInTheOneRegionThatContainsIt) {
   Random random(7);
   const std::vector<Aabb> boxes = heaps(random, 20, 100);

@@ -13,18 +13,18 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kLeast = 4;           // smallest number of samples in a region
+constexpr std::size_t kLeast = 2;           // smallest number of samples in a region
 constexpr std::size_t kFewSamples = 500;    // if there are fewer boxes than twice this number, all are samples
 constexpr std::size_t kBoxesPerSample = 4;  // of very many boxes, one of each four successive boxes is a sample
 // [nats] The cost of a split: kGain, plus kGainPerSample for each sample. A split is made only if the log-likelihood
 // rises by more than its cost. For random samples of evenly spread boxes, the log-likelihood rises by less.
 constexpr double kGainPerSample = 0.25, kGain = 40.0;
-// A split that gains less than this fraction of its cost is fruitless. If more successive splits than kMostFruitless
-// are fruitless, a group is not split further. There is one for each axis: splits between groups of boxes leave out the
-// space between them, so they gain something at once.
-constexpr std::size_t kFewInGroup = 64;
-constexpr double kFruitful = 0.25;
-constexpr int kMostFruitless = 3;
+constexpr std::size_t kFewInGroup = 64;  // samples; a smaller group is split at one of fewer places
+// If a split gains less than this fraction of its cost, the samples may be spread evenly. Then further splits would be
+// tried in vain.
+constexpr double kLittleGain = 0.25;
+// Samples are spread evenly if their cells are at most this much more crowded than the cells of random samples.
+constexpr double kEvenCrowding = 1.5;
 
 using Corner = Eigen::Array4f;  // the 4th value is 0; four values are one register
 
@@ -78,7 +78,7 @@ class RegionTree::Division {
 
   RegionTree tree() {
     RegionTree tree;
-    if (samples_.size() < 2 * kLeast) return tree;
+    if (samples_.size() < 4 * kLeast) return tree;
     CornerGroup all;
     for (const Corner& corner : samples_) all.add(corner);
     divide(0, samples_.size(), all, 0);
@@ -129,7 +129,7 @@ class RegionTree::Division {
   /// Adds a part with the samples begin .. end - 1. Splits the part if the gain is more than the cost of the split.
   /// @param group  number and bounds of these samples
   /// @returns the index of the part
-  std::size_t divide(std::size_t begin, std::size_t end, const CornerGroup& group, int depth, int fruitless = 0) {
+  std::size_t divide(std::size_t begin, std::size_t end, const CornerGroup& group, int depth) {
     const std::size_t number = parts_.size();
     parts_.emplace_back();
     const double alone = likelihood(group);
@@ -137,14 +137,13 @@ class RegionTree::Division {
     if (end - begin < 2 * kLeast || depth >= kMostDepth || mostGain(group) <= cost(group)) return number;
     const Split split = end - begin < kFewInGroup ? bestSplit<8>(group, begin, end) : bestSplit<16>(group, begin, end);
     if (!split.exists) return number;
-    fruitless = split.likelihood - alone < kFruitful * cost(group) ? fruitless + 1 : 0;
-    if (fruitless > kMostFruitless) return number;
+    if (split.likelihood - alone < kLittleGain * cost(group) && isEven(group, begin, end)) return number;
     const auto middle = std::partition(
         samples_.begin() + static_cast<std::ptrdiff_t>(begin), samples_.begin() + static_cast<std::ptrdiff_t>(end),
         [&split](const Corner& corner) { return coordinate(corner, split.axis) < split.at; });
     const auto cut = static_cast<std::size_t>(middle - samples_.begin());
-    const std::size_t below = divide(begin, cut, split.below, depth + 1, fruitless);
-    const std::size_t above = divide(cut, end, split.above, depth + 1, fruitless);
+    const std::size_t below = divide(begin, cut, split.below, depth + 1);
+    const std::size_t above = divide(cut, end, split.above, depth + 1);
     const double divided = parts_[below].likelihood + parts_[above].likelihood - cost(group);
     if (divided <= alone) {
       parts_.resize(number + 1);
@@ -200,6 +199,34 @@ class RegionTree::Division {
     return best;
   }
 
+  /// Returns whether the samples begin .. end - 1 are spread about evenly in their bounds. Counts the samples in cubic
+  /// cells, about as many cells as samples. If the samples formed groups, cells would be more crowded.
+  bool isEven(const CornerGroup& group, std::size_t begin, std::size_t end) {
+    double volume = 1.0;
+    for (std::size_t i = 0; i < 3; ++i) volume *= extent(group, i) + side_[i];
+    const double edge = std::cbrt(volume / group.count);
+    std::array<double, 3> cells, scale;
+    for (std::size_t i = 0; i < 3; ++i) {
+      cells[i] = std::floor(std::clamp(extent(group, i) / edge, 1.0, group.count));
+      scale[i] = extent(group, i) > 0.0 ? cells[i] / extent(group, i) : 0.0;
+    }
+    if (cells[0] * cells[1] * cells[2] > 8.0 * group.count) return false;
+    counts_.assign(static_cast<std::size_t>(cells[0] * cells[1] * cells[2]), 0);
+    double crowding = 0.0;  // sum over all samples of the number of samples in the same cell
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto cell = [&](std::size_t axis) {
+        const double from_low = static_cast<double>(coordinate(samples_[i], axis)) - coordinate(group.low, axis);
+        return static_cast<std::size_t>(std::min(from_low * scale[axis], cells[axis] - 1.0));
+      };
+      const std::size_t number =
+          (cell(2) * static_cast<std::size_t>(cells[1]) + cell(1)) * static_cast<std::size_t>(cells[0]) + cell(0);
+      crowding += 2.0 * counts_[number]++ + 1.0;
+    }
+    // Random samples have 1 + mean samples in the cell of a sample, on average.
+    const double mean = group.count / static_cast<double>(counts_.size());
+    return crowding <= kEvenCrowding * (1.0 + mean) * group.count;
+  }
+
   /// Appends the branches and regions of a part to the tree. `space` is the space that the part covers.
   void lay(RegionTree& tree, std::size_t number, const kernels::Region& space) const {
     const Part& part = parts_[number];
@@ -221,8 +248,9 @@ class RegionTree::Division {
   }
 
   std::vector<Corner> samples_;
-  std::array<double, 3> side_;  // [m] mean box side per axis
-  std::vector<Part> parts_;     // each part is stored before the parts that it is split into
+  std::array<double, 3> side_;         // [m] mean box side per axis
+  std::vector<std::uint32_t> counts_;  // samples per cell, see isEven()
+  std::vector<Part> parts_;            // each part is stored before the parts that it is split into
 };
 
 RegionTree::RegionTree() { join(); }
