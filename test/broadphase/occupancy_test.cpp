@@ -110,6 +110,40 @@ INSTANTIATE_TEST_SUITE_P(Worlds, OccupancyOf,
                          testing::Values(Place{0.0, 100.0, 1.0}, Place{0.0, 100.0, 8.0}, Place{-1e5, 1e4, 10.0},
                                          Place{1e6, 100.0, 2.0}, Place{0.0, 1e-3, 1e-5}, Place{-5e11, 1e12, 1e9}));
 
+/// Claim: a short line that passes the corner of a coarse cell is found in each of the eight cells around the corner.
+TEST(Occupancy, FindsALevelAtTheCornerOfACoarseCell) {
+  Random random(1);
+  int touching = 0;
+  for (int round = 0; round < 200; ++round) {
+    const Eigen::Vector3d corner(random.below(30) + 1, random.below(30) + 1, random.below(30) + 1);
+    std::vector<kernels::Level> levels(3);  // the first two make the coarse cells cubes with edges of 1 m
+    levels[0].around = {{0.0f, 0.0f, 0.0f}, {0.01f, 0.01f, 0.01f}};
+    levels[1].around = {{31.99f, 31.99f, 31.99f}, {32.0f, 32.0f, 32.0f}};
+    const Aabb bounds = test::boxAround(corner, {1e-4, 1e-4, 1e-4});
+    levels[2].around = boxOf(bounds);
+    for (kernels::Level& level : levels) level.end = 1;
+    for (int axis = 0; axis < 3; ++axis) {  // the level is in one of the eight cells
+      if (random.chance(0.5))
+        levels[2].around.min[axis] = static_cast<float>(corner[axis]);
+      else
+        levels[2].around.max[axis] = std::nextafter(static_cast<float>(corner[axis]), 0.0f);
+    }
+    Occupancy occupancy;
+    occupancy.reserve();
+    occupancy.set(levels);
+    for (int i = 0; i < 100; ++i) {
+      const Segment segment{corner + randomVector(random, -0.001, 0.001), corner + randomVector(random, -0.001, 0.001),
+                            0.0};
+      const Aabb level{Eigen::Map<const Eigen::Vector3f>(levels[2].around.min),
+                       Eigen::Map<const Eigen::Vector3f>(levels[2].around.max)};
+      if (!FirstTouch(segment)(level)) continue;
+      ++touching;
+      EXPECT_TRUE(occupancy.mayTouch(lineOf(segment)));
+    }
+  }
+  EXPECT_GT(touching, 30);
+}
+
 TEST(Occupancy, OfLevelsThatFillSpaceRejectsNothing) {
   std::vector<kernels::Level> levels(2);
   levels[0].around = {{0.0f, 0.0f, 0.0f}, {10.0f, 10.0f, 10.0f}};
