@@ -196,12 +196,10 @@ Spread spreadOfTurns(const Trips& trips, const std::vector<std::size_t>& turns) 
 
 ServiceTimes timesOf(const Trips& trips) {
   ServiceTimes times;
-  std::vector<double> all;
-  for (const std::vector<double>& turn : trips) {
-    times.p99_of_turns.push_back(spreadOf(turn).p99);
-    all.insert(all.end(), turn.begin(), turn.end());
-  }
-  times.all = spreadOf(all);
+  for (const std::vector<double>& turn : trips) times.p99_of_turns.push_back(spreadOf(turn).p99);
+  std::vector<std::size_t> turns(trips.size());
+  std::iota(turns.begin(), turns.end(), std::size_t{0});
+  times.all = spreadOfTurns(trips, turns);
   std::sort(times.p99_of_turns.begin(), times.p99_of_turns.end());
   return times;
 }

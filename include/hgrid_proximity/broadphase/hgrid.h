@@ -90,14 +90,15 @@ class HGrid final : public BroadPhase {
   void overlapping(const std::vector<Sphere>& spheres, IdBatch& found) const override;
   void along(const std::vector<Segment>& segments, SegmentBatch& found) const override;
   ///@}
-  /// Returns GridScale::kLevels levels and one more for the boxes that are too large for the coarsest of them.
+  /// Returns GridScale::kLevels size classes and one more for the boxes that are too large for the largest of them.
+  /// Several classes may share a level of the grid, so these are not the levels that a search visits.
   std::vector<BroadPhaseLevel> levels() const override;
   int levelOf(ProxyId id) const override;
   void checkInvariants() const override;
 
-  /// Returns the longest side [m] that a box on this level can have; 0 <= level < GridScale::kLevels.
+  /// Returns the longest side [m] that a box of this size class can have; 0 <= level < GridScale::kLevels.
   double edge(int level) const;
-  /// Returns the level on which a box of this size is stored: 0 .. GridScale::kLevels.
+  /// Returns the size class of a box: 0 .. GridScale::kLevels.
   int levelFor(const Aabb& box) const;
   /// Returns the memory [bytes] of all stored data, without the pairs of resting boxes that the grid keeps.
   std::size_t bytes() const;

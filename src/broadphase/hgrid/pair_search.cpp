@@ -162,14 +162,14 @@ void addRegions(std::vector<SearchTask>& tasks, const Layer& layer, const Layer*
   }
 }
 
-/// Adds tasks that test each level of a layer against itself and against each coarser level (Ericson 2005, 7.2).
+/// Adds tasks that test each level of a layer against itself and against each later level (Ericson 2005, 7.2).
 void addWithin(std::vector<SearchTask>& tasks, const Layer& layer) {
   if (layer.isDivided()) return addRegions(tasks, layer, nullptr);
   const std::vector<kernels::Level>& levels = layer.levels();
   for (std::size_t level = 0; level < levels.size(); ++level) {
     addTask(tasks, levels[level], nullptr);
-    for (std::size_t coarser = level + 1; coarser < levels.size(); ++coarser) {
-      addAcross(tasks, levels[level], levels[coarser]);
+    for (std::size_t later = level + 1; later < levels.size(); ++later) {
+      addAcross(tasks, levels[level], levels[later]);
     }
   }
 }
