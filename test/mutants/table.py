@@ -165,7 +165,7 @@ CORE = [
      "started > 0 || moving_changed || ", "started > 0 || "),
 
     ("a level is not tested against the next coarser one", PAIRS,
-     "coarser = level + 1", "coarser = level + 2"),
+     "later = level + 1", "later = level + 2"),
     ("boxes of different regions form no pairs", PAIRS,
      "meetAll(layer, region, layer, last);", ""),
     ("a region is tested against all regions except its neighbor", PAIRS,
