@@ -115,7 +115,7 @@ TEST(Occupancy, FindsALevelAtTheCornerOfACoarseCell) {
   Random random(1);
   int touching = 0;
   for (int round = 0; round < 200; ++round) {
-    const Eigen::Vector3d corner(random.below(30) + 1, random.below(30) + 1, random.below(30) + 1);
+    const Eigen::Vector3d corner(random.below(32), random.below(32), random.below(32));
     std::vector<kernels::Level> levels(3);  // the first two make the coarse cells cubes with edges of 1 m
     levels[0].around = {{0.0f, 0.0f, 0.0f}, {0.01f, 0.01f, 0.01f}};
     levels[1].around = {{31.99f, 31.99f, 31.99f}, {32.0f, 32.0f, 32.0f}};
@@ -142,6 +142,27 @@ TEST(Occupancy, FindsALevelAtTheCornerOfACoarseCell) {
     }
   }
   EXPECT_GT(touching, 30);
+}
+
+/// Claim: the pieces of a long line leave no gaps.
+TEST(Occupancy, FindsASmallLevelOnALongLine) {
+  Random random(2);
+  for (int round = 0; round < 300; ++round) {
+    const Eigen::Vector3d place = randomVector(random, 1, 31);
+    std::vector<kernels::Level> levels(3);  // the first two make the coarse cells cubes with edges of 1 m
+    levels[0].around = {{0.0f, 0.0f, 0.0f}, {0.01f, 0.01f, 0.01f}};
+    levels[1].around = {{31.99f, 31.99f, 31.99f}, {32.0f, 32.0f, 32.0f}};
+    levels[2].around = boxOf(test::boxAround(place, {1e-3, 1e-3, 1e-3}));
+    for (kernels::Level& level : levels) level.end = 1;
+    Occupancy occupancy;
+    occupancy.reserve();
+    occupancy.set(levels);
+    for (int i = 0; i < 200; ++i) {
+      const Eigen::Vector3d direction = randomVector(random, -1, 1).normalized();
+      const double before = random.uniform(0, 20), after = random.uniform(0, 20);
+      EXPECT_TRUE(occupancy.mayTouch(lineOf({place - before * direction, place + after * direction, 0.0})));
+    }
+  }
 }
 
 TEST(Occupancy, OfLevelsThatFillSpaceRejectsNothing) {

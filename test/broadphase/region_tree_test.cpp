@@ -86,6 +86,24 @@ TEST(RegionTree, FindsManySmallHeapsThatAreSpreadEvenly) {
   EXPECT_GE(treeOf(boxes).size(), 200u);
 }
 
+/// Small samples or few places for splits leave several of these heaps in one region.
+TEST(RegionTree, FindsHeapsOfDifferentSizes) {
+  std::size_t regions = 0;
+  for (const unsigned seed : {1u, 2u, 3u, 4u, 5u}) {
+    Random random(seed);
+    std::vector<Aabb> boxes;
+    for (int i = 0; i < 40; ++i) {
+      const double size = random.logUniform(0.01, 10);
+      const Eigen::Vector3d place = randomVector(random, -200, 200);
+      for (int k = 0; k < 75; ++k) {
+        boxes.push_back(boxAround(place + 5 * size * randomVector(random, -1, 1), Eigen::Vector3d::Constant(size)));
+      }
+    }
+    regions += treeOf(boxes).size();
+  }
+  EXPECT_GE(regions, 5u * 42);
+}
+
 /// Claim: a coordinate that is not representable as a difference of floats does no harm.
 TEST(RegionTree, OfBoxesAtTheEndsOfTheRangeOfFloat) {
   Random random(1);

@@ -22,7 +22,7 @@ void insertSorted(std::array<float, kCount>& sorted, float value, Before before)
 }  // namespace
 
 BoxSample::BoxSample(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count) {
-  size_ = std::min(count, count < kFew ? kMostOfFew : kMost);
+  size_ = std::min(count, kMost);
   for (std::size_t i = 0; i < size_; ++i) {
     const std::size_t begin = i * count / size_, end = (i + 1) * count / size_;
     const Aabb& box = boxes[ids[begin + scattered(i) % (end - begin)]];

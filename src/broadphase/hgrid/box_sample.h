@@ -27,8 +27,7 @@ constexpr std::uint64_t scattered(std::uint64_t number) {
 /// axis, even if they are spread unevenly. Allocates nothing.
 class BoxSample {
  public:
-  /// Samples at most 256 of the boxes of `count` ids, or at most 128 if there are fewer than 2048. `count` must be at
-  /// least 1.
+  /// Samples at most 256 of the boxes of `count` ids. `count` must be at least 1.
   BoxSample(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count);
 
   /// Estimates the coordinate [m] below which 1 % of the minimum corners are. For fewer than 100 boxes, returns the
@@ -47,8 +46,7 @@ class BoxSample {
   bool isThin(std::size_t axis, const std::array<double, 3>& sides) const;
 
  private:
-  static constexpr std::size_t kMost = 256, kMostOfFew = 128;  // largest number of sampled boxes
-  static constexpr std::size_t kFew = 2048;  // if there are fewer boxes, a large sample would take too long
+  static constexpr std::size_t kMost = 256;  // largest number of sampled boxes
 
   /// Returns the coordinates of the sampled minimum corners on an axis, in the order of the ids.
   std::array<float, kMost> onAxis(std::size_t axis) const;

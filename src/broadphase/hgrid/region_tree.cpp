@@ -14,7 +14,7 @@ namespace hgrid {
 namespace {
 
 constexpr std::size_t kLeast = 2;           // smallest number of samples in a region
-constexpr std::size_t kFewSamples = 500;    // if there are fewer boxes than twice this number, all are samples
+constexpr std::size_t kFewSamples = 2048;   // if there are fewer boxes than twice this number, all are samples
 constexpr std::size_t kBoxesPerSample = 4;  // of very many boxes, one of each four successive boxes is a sample
 // [nats] The cost of a split: kGain, plus kGainPerSample for each sample. A split is made only if the log-likelihood
 // rises by more than its cost. For random samples of evenly spread boxes, the log-likelihood rises by less.
@@ -135,7 +135,7 @@ class RegionTree::Division {
     const double alone = likelihood(group);
     parts_[number].likelihood = alone;
     if (end - begin < 2 * kLeast || depth >= kMostDepth || mostGain(group) <= cost(group)) return number;
-    const Split split = end - begin < kFewInGroup ? bestSplit<8>(group, begin, end) : bestSplit<16>(group, begin, end);
+    const Split split = end - begin < kFewInGroup ? bestSplit<8>(group, begin, end) : bestSplit<32>(group, begin, end);
     if (!split.exists) return number;
     if (split.likelihood - alone < kLittleGain * cost(group) && isEven(group, begin, end)) return number;
     const auto middle = std::partition(
@@ -199,8 +199,8 @@ class RegionTree::Division {
     return best;
   }
 
-  /// Returns whether the samples begin .. end - 1 are spread about evenly in their bounds. Counts the samples in cubic
-  /// cells, about as many cells as samples. If the samples formed groups, cells would be more crowded.
+  /// Returns whether the samples begin .. end - 1 are spread about evenly in their bounds. Counts the samples in a grid
+  /// of at most about as many cells as samples. If the samples formed groups, cells would be more crowded.
   bool isEven(const CornerGroup& group, std::size_t begin, std::size_t end) {
     double volume = 1.0;
     for (std::size_t i = 0; i < 3; ++i) volume *= extent(group, i) + side_[i];
