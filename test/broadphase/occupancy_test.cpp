@@ -110,18 +110,25 @@ INSTANTIATE_TEST_SUITE_P(Worlds, OccupancyOf,
                          testing::Values(Place{0.0, 100.0, 1.0}, Place{0.0, 100.0, 8.0}, Place{-1e5, 1e4, 10.0},
                                          Place{1e6, 100.0, 2.0}, Place{0.0, 1e-3, 1e-5}, Place{-5e11, 1e12, 1e9}));
 
+/// Returns three levels. The bounds of the first two make the coarse cells cubes with edges of 1 m; the caller sets the
+/// bounds of the third.
+std::vector<kernels::Level> levelsWithCellsOfOneMeter() {
+  std::vector<kernels::Level> levels(3);
+  levels[0].around = {{0.0f, 0.0f, 0.0f}, {0.01f, 0.01f, 0.01f}};
+  levels[1].around = {{31.99f, 31.99f, 31.99f}, {32.0f, 32.0f, 32.0f}};
+  for (kernels::Level& level : levels) level.end = 1;
+  return levels;
+}
+
 /// Claim: a short line that passes the corner of a coarse cell is found in each of the eight cells around the corner.
 TEST(Occupancy, FindsALevelAtTheCornerOfACoarseCell) {
   Random random(1);
   int touching = 0;
   for (int round = 0; round < 200; ++round) {
     const Eigen::Vector3d corner(random.below(32), random.below(32), random.below(32));
-    std::vector<kernels::Level> levels(3);  // the first two make the coarse cells cubes with edges of 1 m
-    levels[0].around = {{0.0f, 0.0f, 0.0f}, {0.01f, 0.01f, 0.01f}};
-    levels[1].around = {{31.99f, 31.99f, 31.99f}, {32.0f, 32.0f, 32.0f}};
+    std::vector<kernels::Level> levels = levelsWithCellsOfOneMeter();
     const Aabb bounds = test::boxAround(corner, {1e-4, 1e-4, 1e-4});
     levels[2].around = boxOf(bounds);
-    for (kernels::Level& level : levels) level.end = 1;
     for (int axis = 0; axis < 3; ++axis) {  // the level is in one of the eight cells
       if (random.chance(0.5))
         levels[2].around.min[axis] = static_cast<float>(corner[axis]);
@@ -149,11 +156,8 @@ TEST(Occupancy, FindsASmallLevelOnALongLine) {
   Random random(2);
   for (int round = 0; round < 300; ++round) {
     const Eigen::Vector3d place = randomVector(random, 1, 31);
-    std::vector<kernels::Level> levels(3);  // the first two make the coarse cells cubes with edges of 1 m
-    levels[0].around = {{0.0f, 0.0f, 0.0f}, {0.01f, 0.01f, 0.01f}};
-    levels[1].around = {{31.99f, 31.99f, 31.99f}, {32.0f, 32.0f, 32.0f}};
+    std::vector<kernels::Level> levels = levelsWithCellsOfOneMeter();
     levels[2].around = boxOf(test::boxAround(place, {1e-3, 1e-3, 1e-3}));
-    for (kernels::Level& level : levels) level.end = 1;
     Occupancy occupancy;
     occupancy.reserve();
     occupancy.set(levels);

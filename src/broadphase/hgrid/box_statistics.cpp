@@ -11,8 +11,9 @@
 namespace hgrid {
 namespace {
 
-/// Returns the smallest k with ratio <= GridScale::kRatio^k, at most GridScale::kLevels. Reads the exponent of `ratio`:
-/// a loop over the size classes would mispredict its end if the sizes of boxes differ.
+/// Returns the smallest k >= 0 for which `ratio` is at most GridScale::kRatio^k, but not more than GridScale::kLevels.
+/// Computes k from the exponent of `ratio`. A loop over the size classes would be slower, because the processor would
+/// mispredict its end if the sizes of boxes differ.
 /// @param ratio  at least 0; may be infinite
 std::size_t sizeClassOf(float ratio) {
   static_assert(GridScale::kRatio == 4.0, "a size class spans two powers of 2");

@@ -89,7 +89,8 @@ bool Occupancy::isOnLine(const kernels::Line& line) const {
   // False if a value is NaN.
   const bool fits = (farthest < kFarthest) & (widest < 0.4) & (longest < kMostPieces * longest_piece);
   if (!fits) return true;
-  // Few different numbers of pieces, because the end of the loop is mispredicted when the number changes.
+  // There are only two different numbers of pieces: the processor mispredicts the end of the loop when the number
+  // differs from that of the query before.
   const bool many = longest > kFewPieces * longest_piece;
   const double part = many ? 0.5 / kMostPieces : 0.5 / kFewPieces;
   const int pieces = many ? static_cast<int>(kMostPieces) : static_cast<int>(kFewPieces);

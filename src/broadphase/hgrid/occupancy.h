@@ -82,8 +82,9 @@ class Occupancy {
   // Each number holds the bits of one row of cells along x. Rows follow each other along y, then z. If there are none,
   // all space may have boxes.
   std::vector<std::uint32_t> rows_;
-  // As many rows. A bit is 1 if the cell or its next neighbor on an axis, or on several axes, is occupied. So one bit
-  // answers for two cells per axis. The neighbor of the last cell is the first.
+  // Has as many numbers as rows_, with one bit for each cell as well. Here, the bit is 1 if one of eight cells is
+  // occupied: the cell itself, or a cell whose index is larger by one on x, y, z or several of these axes. The cell
+  // after the last cell of an axis is its first cell.
   std::vector<std::uint32_t> near_rows_;
 };
 

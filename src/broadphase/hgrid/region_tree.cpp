@@ -199,8 +199,9 @@ class RegionTree::Division {
     return best;
   }
 
-  /// Returns whether the samples begin .. end - 1 are spread about evenly in their bounds. Counts the samples in a grid
-  /// of at most about as many cells as samples. If the samples formed groups, cells would be more crowded.
+  /// Returns whether the samples begin .. end - 1 are spread about evenly in their bounds. Divides the bounds into at
+  /// most about as many cells as there are samples, and counts the samples in each cell. If the samples form groups,
+  /// the cells with samples are more crowded.
   bool isEven(const CornerGroup& group, std::size_t begin, std::size_t end) {
     double volume = 1.0;
     for (std::size_t i = 0; i < 3; ++i) volume *= extent(group, i) + side_[i];
@@ -222,7 +223,7 @@ class RegionTree::Division {
           (cell(2) * static_cast<std::size_t>(cells[1]) + cell(1)) * static_cast<std::size_t>(cells[0]) + cell(0);
       crowding += 2.0 * counts_[number]++ + 1.0;
     }
-    // Random samples have 1 + mean samples in the cell of a sample, on average.
+    // If samples are placed at random, the cell of a sample has 1 + mean samples on average, this sample included.
     const double mean = group.count / static_cast<double>(counts_.size());
     return crowding <= kEvenCrowding * (1.0 + mean) * group.count;
   }
