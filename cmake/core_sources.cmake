@@ -48,6 +48,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/hgrid/pair_collection.cpp
   src/broadphase/hgrid/pair_search.cpp
   src/broadphase/hgrid/queries.cpp
+  src/broadphase/hgrid/query_tree.cpp
   src/broadphase/hgrid/region_tree.cpp
   src/broadphase/hgrid/shape_levels.cpp
   src/broadphase/isa.cpp

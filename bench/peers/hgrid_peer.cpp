@@ -54,6 +54,7 @@ class HGridQueries final : public QueryPeer {
     std::iota(ids.begin(), ids.end(), 0);
     grid_.emplace(GridScale::fitting(boxes));
     grid_->update(ids, boxes);
+    if (!getenv("NOPREP")) grid_->prepareQueries();
   }
 
   bool answers(QueryKind kind, bool batched) const override {

@@ -158,6 +158,7 @@ void expectAnswersOfAScan(Family family) {
     const test::Pairs expected = test::allOverlaps(boxes);
     true_pairs += expected.size();
     ASSERT_EQ(test::pairsOf(*tested), expected);
+    if (random.chance(0.5)) tested->prepareQueries();
     ASSERT_NO_FATAL_FAILURE(expectRightBoxAnswers(*tested, boxes, random));
     ASSERT_NO_FATAL_FAILURE(expectRightSphereAnswers(*tested, boxes, random));
     ASSERT_NO_FATAL_FAILURE(expectRightSegmentAnswers(*tested, boxes, random));

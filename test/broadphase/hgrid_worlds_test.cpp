@@ -217,6 +217,7 @@ void expectQueriesLikeBruteForce(const HGrid& grid, const test::BruteForce& brut
       ASSERT_EQ(nearest[k].id, expected_nearest[k].id);
       ASSERT_EQ(nearest[k].distance, expected_nearest[k].distance);
     }
+    if (i == 15) grid.prepareQueries();
   }
 }
 

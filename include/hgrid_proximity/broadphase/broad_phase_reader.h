@@ -88,6 +88,12 @@ class BroadPhaseReader {
   virtual void nearest(const Eigen::Vector3d& point, std::size_t count, double limit,
                        std::vector<NearHit>& found) const = 0;
 
+  /// Prepares for many queries before the next change of the stored boxes. This makes the next queries faster and
+  /// changes no answer. A broad phase that gains nothing from it does nothing. Other threads may call functions of this
+  /// class meanwhile.
+  /// @throws std::bad_alloc  then nothing is prepared, and queries work as before
+  virtual void prepareQueries() const {}
+
   ///@{
   /// Answers many queries in one call. The default implementation answers them one after another.
   virtual void overlapping(const std::vector<Aabb>& boxes, IdBatch& found) const;

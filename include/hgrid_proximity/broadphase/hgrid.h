@@ -84,6 +84,10 @@ class HGrid final : public BroadPhase {
   void along(const Segment& segment, std::vector<SegmentHit>& found) const override;
   void nearest(const Eigen::Vector3d& point, std::size_t count, double limit,
                std::vector<NearHit>& found) const override;
+  /// Builds a tree of bounding volumes for each layer that has none and whose boxes have not changed since. Takes about
+  /// as long as a few bulk updates. Sphere, segment and box queries then use the trees, until the boxes of their layer
+  /// change. So the trees of fixed and resting boxes last while other boxes move.
+  void prepareQueries() const override;
   ///@{
   /// Processes the queries in the order of their coordinates, which saves cache misses.
   void overlapping(const std::vector<Aabb>& boxes, IdBatch& found) const override;

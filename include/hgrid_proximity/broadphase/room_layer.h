@@ -52,6 +52,7 @@ class RoomLayer final : public BroadPhase {
                std::vector<NearHit>& found) const override {
     below_->nearest(point, count, limit, found);
   }
+  void prepareQueries() const override { below_->prepareQueries(); }
   std::vector<BroadPhaseLevel> levels() const override { return below_->levels(); }
   int levelOf(ProxyId id) const override { return below_->levelOf(id); }
   void checkInvariants() const override;

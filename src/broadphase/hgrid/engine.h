@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "broadphase/hgrid/layer.h"
+#include "broadphase/hgrid/query_tree.h"
 #include "hgrid_proximity/broadphase/hgrid.h"
 
 namespace hgrid {
@@ -72,7 +73,7 @@ struct HGrid::Engine {
   bool isStored(ProxyId id) const { return id < layer_of.size() && layer_of[id] != kAbsent; }
   void requireStored(ProxyId id) const;
   void requireValid(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given);
-  Machine machine() { return {&kernels::of(isa), workers.get(), &scratch}; }
+  Machine machine() { return {loops, workers.get(), &scratch}; }
 
   // Functions that change the stored boxes (engine.cpp).
   /// Makes room for a box with this id.
@@ -131,6 +132,7 @@ struct HGrid::Engine {
 
   double finest_edge;
   Isa isa = bestIsa();
+  const kernels::Kernels* loops = &kernels::of(isa);  // the inner loops for `isa`
   OverlapFilter filter;
   PairBound bound;
   std::vector<Aabb> boxes;            // the box of each id
@@ -170,6 +172,18 @@ struct HGrid::Engine {
   bool collectPairs(std::vector<ProxyPair>& pairs) const;
   mutable std::mutex search_mutex;
   mutable SearchBuffers buffers;
+
+  // Trees for queries (queries.cpp). A tree is valid if its layer has not changed since it was built.
+  /// Builds the trees of all layers that have none.
+  void prepareQueries() const;
+  /// Returns the tree of a layer; null if there is no valid one.
+  const QueryTree* treeOf(std::size_t layer) const {
+    return tree_changes[layer].load(std::memory_order_acquire) == layers[layer].changes() ? &trees[layer] : nullptr;
+  }
+  mutable std::mutex tree_mutex;  // protects the building of trees
+  mutable std::array<QueryTree, kLayers> trees;
+  mutable std::array<std::atomic<std::uint64_t>, kLayers> tree_changes{};  // changes() of each layer when its tree was
+                                                                           // built; 0 if it was never built
 };
 
 }  // namespace hgrid

@@ -2,47 +2,54 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "broadphase/hgrid/layer.h"
+#include "broadphase/hgrid/query_tree.h"
 
 namespace hgrid {
 
-/// Lets kernels write positions of boxes (see Layer) into a vector. Enlarges the vector when it is full.
+/// Lets kernels write places of boxes. The first places are stored in this object, all of them in a vector if there are
+/// more.
 class PositionWriter {
  public:
-  explicit PositionWriter(std::vector<std::uint32_t>& buffer) : buffer_(buffer) {
-    if (buffer_.empty()) buffer_.resize(1024);
-    sink_.owner = this;
-    sink_.grow = grow;
-    restart(0);
-  }
+  /// Uses a vector that the thread keeps, so only the first few queries allocate.
+  PositionWriter() : PositionWriter(nullptr) {}
+  /// Uses this vector. @param buffer  must outlive the object
+  explicit PositionWriter(std::vector<std::uint32_t>& buffer) : PositionWriter(&buffer) {}
+  PositionWriter(const PositionWriter&) = delete;
+  PositionWriter& operator=(const PositionWriter&) = delete;
+
   kernels::PositionSink* sink() { return &sink_; }
-  const std::uint32_t* begin() const { return buffer_.data(); }
+  const std::uint32_t* begin() const { return first_; }
   const std::uint32_t* end() const { return sink_.next; }
   std::size_t size() const { return static_cast<std::size_t>(end() - begin()); }
 
  private:
-  void restart(std::size_t used) {
-    sink_.next = buffer_.data() + used;
-    sink_.limit = buffer_.data() + buffer_.size();
-  }
+  static constexpr std::size_t kFew = 128;
+
+  // Does not initialize few_, because that would take as long as some queries.
+  explicit PositionWriter(std::vector<std::uint32_t>* buffer)  // NOLINT(*-member-init)
+      : buffer_(buffer), first_(few_), sink_{few_, few_ + kFew, this, grow, false} {}
+
   static void grow(kernels::PositionSink* sink) {
-    auto* self = static_cast<PositionWriter*>(sink->owner);
-    const auto used = static_cast<std::size_t>(sink->next - self->buffer_.data());
-    self->buffer_.resize(2 * self->buffer_.size());
-    self->restart(used);
+    thread_local std::vector<std::uint32_t> of_thread;
+    auto& self = *static_cast<PositionWriter*>(sink->owner);
+    std::vector<std::uint32_t>& buffer = self.buffer_ == nullptr ? of_thread : *self.buffer_;
+    const std::size_t used = self.size();
+    if (buffer.size() < 2 * used) buffer.resize(std::max<std::size_t>(2 * used, 1024));
+    if (self.first_ == self.few_) std::copy(self.few_, self.few_ + used, buffer.data());
+    self.first_ = buffer.data();
+    sink->next = buffer.data() + used;
+    sink->limit = buffer.data() + buffer.size();
   }
 
-  std::vector<std::uint32_t>& buffer_;
-  kernels::PositionSink sink_{};
+  std::vector<std::uint32_t>* buffer_;
+  std::uint32_t* first_;
+  kernels::PositionSink sink_;
+  std::uint32_t few_[kFew];
 };
-
-/// Returns this thread's buffer for positions. The buffer keeps its memory, so only the first few queries allocate.
-inline std::vector<std::uint32_t>& bufferOfThread() {
-  thread_local std::vector<std::uint32_t> buffer;
-  return buffer;
-}
 
 inline kernels::Box boxOf(const Aabb& box) {
   return {{box.min[0], box.min[1], box.min[2]}, {box.max[0], box.max[1], box.max[2]}};
@@ -54,40 +61,46 @@ inline bool overlap(const kernels::Box& a, const kernels::Box& b) {
   return both;
 }
 
-/// Searches each layer. Calls visit(layer, positions) for each layer in which `search` finds boxes.
-/// @param may_have  called as bool may_have(const Occupancy&); says whether a layer needs a search
-/// @param search  called as void search(const kernels::LevelSet&, kernels::PositionSink*); writes the positions of the
-///                boxes that it finds
-template <class Engine, class MayHave, class Search, class Visit>
-void visitFound(const Engine& engine, MayHave&& may_have, Search&& search, Visit&& visit) {
-  for (const Layer& layer : engine.layers) {
-    if (layer.size() == 0 || !may_have(layer.occupancy())) continue;
-    PositionWriter writer(bufferOfThread());
-    search(layer.querySet(), writer.sink());
-    if (writer.size() == 0) continue;
-    visit(layer, writer);
+/// Searches each layer: its tree if there is one, else its levels. Calls visit(boxes, places) for each layer in which a
+/// search finds boxes. `boxes` is a Layer and the places are positions, or it is a QueryTree and they are slots. Both
+/// have the functions boxAt(place) and idAt(place). Inlined, because a call takes a part of the time of a query into
+/// empty space.
+/// @param search_tree  called as bool search_tree(const kernels::BoxTree&, kernels::PositionSink*); writes slots.
+///                     Returns false if the levels must be searched instead
+/// @param may_have  called as bool may_have(const Occupancy&); says whether a layer needs a search of its levels
+/// @param search_levels  called as void search_levels(const kernels::LevelSet&, kernels::PositionSink*); writes the
+///                       positions of the boxes that it finds
+template <class Engine, class SearchTree, class MayHave, class SearchLevels, class Visit>
+inline __attribute__((always_inline)) void visitFound(const Engine& engine, SearchTree&& search_tree,
+                                                      MayHave&& may_have, SearchLevels&& search_levels, Visit&& visit) {
+  for (std::size_t number = 0; number < engine.layers.size(); ++number) {
+    const Layer& layer = engine.layers[number];
+    if (layer.size() == 0) continue;
+    PositionWriter writer;
+    if (const QueryTree* const tree = engine.treeOf(number);
+        tree != nullptr && search_tree(tree->view(), writer.sink())) {
+      if (writer.size() != 0) visit(*tree, writer);
+    } else if (may_have(layer.occupancy())) {
+      search_levels(layer.querySet(), writer.sink());
+      if (writer.size() != 0) visit(layer, writer);
+    }
   }
 }
 
-/// Calls visit(layer, positions) for each layer in which boxes overlap a box.
-/// @param make_box  returns the box; called only for layers that need a search
-/// @param may_have  says whether a layer needs a search, see visitFound()
-template <class Engine, class MakeBox, class MayHave, class Visit>
-void visitOverlapping(const Engine& engine, MakeBox&& make_box, MayHave&& may_have, Visit&& visit) {
-  visitFound(
-      engine, may_have,
-      [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) {
-        const kernels::Box box = make_box();
-        kernels::of(engine.isa).overlapping(&levels, &box, sink);
-      },
-      visit);
-}
-
-/// Calls visit(layer, positions) for each layer in which boxes overlap `box`.
+/// Calls visit(boxes, places) for each layer in which boxes overlap `box`, see visitFound().
 template <class Engine, class Visit>
 void visitOverlapping(const Engine& engine, const kernels::Box& box, Visit&& visit) {
-  visitOverlapping(
-      engine, [&] { return box; }, [&](const Occupancy& occupancy) { return occupancy.mayOverlap(box); }, visit);
+  visitFound(
+      engine,
+      [&](const kernels::BoxTree& tree, kernels::PositionSink* sink) {
+        engine.loops->overlappingInTree(&tree, &box, sink);
+        return true;
+      },
+      [&](const Occupancy& occupancy) { return occupancy.mayOverlap(box); },
+      [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) {
+        engine.loops->overlapping(&levels, &box, sink);
+      },
+      visit);
 }
 
 }  // namespace hgrid

@@ -62,7 +62,7 @@ void HGrid::Engine::requireValid(const std::vector<ProxyId>& ids, const std::vec
     for (std::size_t i = std::max<std::size_t>(begin, 1); i < end; ++i) ascend = ascend & (ids[i - 1] < ids[i]);
     if (!ascend) all_ascend = false;
     const auto* first = reinterpret_cast<const kernels::Box*>(given.data()) + begin;
-    if (!kernels::of(isa).sound(first, end - begin)) all_sound = false;
+    if (!loops->sound(first, end - begin)) all_sound = false;
   });
   if (!all_ascend) throw std::invalid_argument("HGrid: the ids do not ascend; sort them, and use each id once");
   if (!all_sound)
@@ -87,6 +87,7 @@ void HGrid::setIsa(Isa isa) {
                                 "; choose another instruction set");
   }
   engine_->isa = isa;
+  engine_->loops = &kernels::of(isa);
 }
 
 Isa HGrid::isa() const { return engine_->isa; }
@@ -247,6 +248,7 @@ std::size_t HGrid::bytes() const {
                     e.scratch.copies.capacity() * sizeof(Aabb) +
                     (e.scratch.cells.capacity() + e.scratch.counts.capacity()) * sizeof(std::uint32_t);
   for (const Layer& layer : e.layers) sum += layer.bytes();
+  for (const QueryTree& tree : e.trees) sum += tree.bytes();
   for (const std::vector<ProxyId>& ids : e.members) sum += ids.capacity() * sizeof(ProxyId);
   return sum;
 }
@@ -267,6 +269,7 @@ void HGrid::checkInvariants() const {
   for (std::size_t number = 0; number < e.layers.size(); ++number) {
     const Layer& layer = e.layers[number];
     layer.checkInvariants(e.boxes);
+    if (layer.size() > 0 && e.treeOf(number) != nullptr) e.treeOf(number)->checkInvariants(layer);
     for (std::uint32_t i = 0; i < layer.size(); ++i) {
       if (layer.isWithdrawn(i)) continue;
       const ProxyId id = layer.ids()[i];

@@ -102,6 +102,7 @@ void Layer::reserve(std::size_t count, std::size_t ids, const Machine& machine) 
 }
 
 void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine) {
+  ++changes_;
   reserve(count_, boxes.size(), machine);
   if (count_ == 0) {
     plan_.clear();
@@ -361,6 +362,7 @@ void Layer::point() {
 }
 
 void Layer::withdraw(std::uint32_t position) {
+  ++changes_;
   // The minimum corner remains, because pairsWithin() computes the row of the position from it. If the minimum corner
   // changed, pairsWithin() would search beyond that row.
   for (std::size_t axis = 3; axis < 6; ++axis) bounds_[axis * stride_ + position] = kNothing;

@@ -65,6 +65,9 @@ class Layer {
   std::size_t size() const { return count_; }  ///< number of boxes, withdrawn boxes included
   /// Returns the id of the box at each position.
   const ProxyId* ids() const { return ids_.data(); }
+  ProxyId idAt(std::uint32_t position) const { return ids_[position]; }
+  /// Returns how often the boxes of the layer changed.
+  std::uint64_t changes() const { return changes_; }
   /// Returns the box at a position.
   Aabb boxAt(std::uint32_t position) const {
     const float* bound = bounds_.data() + position;
@@ -105,6 +108,7 @@ class Layer {
   std::uint32_t* countsOf(std::size_t thread, std::size_t threads, const Machine& machine);
   const std::uint32_t* countsOf(std::size_t thread, std::size_t threads, const Machine& machine) const;
 
+  std::uint64_t changes_ = 0;
   LayerPlan plan_;
   int sorts_with_plan_ = 0;
   std::size_t count_ = 0;

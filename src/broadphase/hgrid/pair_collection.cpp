@@ -57,11 +57,11 @@ bool HGrid::Engine::collectPairs(std::vector<ProxyPair>& pairs) const {
   for (ProxyId id = 0; id < layer_of.size() && !collection.isCut(); ++id) {
     if (!isStored(id) || isFixed(id)) continue;
     const std::size_t begin = pairs.size();
-    visitOverlapping(*this, boxOf(boxes[id]), [&](const Layer& layer, const PositionWriter& positions) {
+    visitOverlapping(*this, boxOf(boxes[id]), [&](const auto& found, const PositionWriter& places) {
       std::size_t count = pairs.size();
-      pairs.resize(count + positions.size());
-      for (const std::uint32_t position : positions) {
-        const ProxyId other = layer.ids()[position];
+      pairs.resize(count + places.size());
+      for (const std::uint32_t place : places) {
+        const ProxyId other = found.idAt(place);
         pairs[count] = {std::min(id, other), std::max(id, other)};
         count += other > id || isFixed(other) ? 1 : 0;  // Store unconditionally: a branch would be mispredicted.
       }

@@ -377,7 +377,7 @@ void HGrid::Engine::findKept() {
   addWithin(buffers.tasks, layers[kResting]);
   addAcross(buffers.tasks, layers[kResting], layers[kFixed]);
   Tally tally(bound, 0, 0);
-  kept_valid = performAll(buffers, kernels::of(isa), {filter, nullptr}, tally, workers.get(), kept, 0);
+  kept_valid = performAll(buffers, *loops, {filter, nullptr}, tally, workers.get(), kept, 0);
   kept_overlaps = tally.overlaps();
   if (!kept_valid) kept.clear();
 }
@@ -411,7 +411,7 @@ bool HGrid::Engine::findPairs(std::vector<ProxyPair>& pairs, const PairBound& up
       addAcross(tasks, layers[mobile], layers[static_cast<std::size_t>(other)]);
   }
   Tally tally(up_to, used, kept_valid ? kept_overlaps : 0);
-  const bool complete = performAll(used_buffers, kernels::of(isa), {filter, fixed_astray ? &fixed : nullptr}, tally,
+  const bool complete = performAll(used_buffers, *loops, {filter, fixed_astray ? &fixed : nullptr}, tally,
                                    lock.owns_lock() ? workers.get() : nullptr, pairs, used);
   if (complete && keep_found && lock.owns_lock() && !buffers.found_valid) {
     try {

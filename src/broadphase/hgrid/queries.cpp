@@ -42,14 +42,15 @@ void sortIds(ProxyId* ids, std::size_t count) {
 /// Returns a box that contains the sphere. The box may be slightly too large, because the found boxes are then tested
 /// against the sphere itself.
 kernels::Box boxOf(const Sphere& sphere) {
-  const double half = sphere.radius + 2.0 * roundingSlack(sphere.center.cwiseAbs().maxCoeff() + sphere.radius);
+  // The sum is computed beside the corners, not before them: a query into empty space takes hardly longer than this.
+  const double slack = 2.0 * roundingSlack(sphere.center.lpNorm<1>() + sphere.radius) + 1e-37;
   kernels::Box box;
   for (int axis = 0; axis < 3; ++axis) {
-    constexpr float kRounding = 1.2e-7f, kLeast = 1e-37f;  // allow for rounding to float
-    const auto min = static_cast<float>(sphere.center[axis] - half);
-    const auto max = static_cast<float>(sphere.center[axis] + half);
-    box.min[axis] = min - std::abs(min) * kRounding - kLeast;
-    box.max[axis] = max + std::abs(max) * kRounding + kLeast;
+    constexpr double kRounding = 2.5e-7;  // allows for two roundings to float
+    const double center = sphere.center[axis];
+    const auto grown = static_cast<float>((std::abs(center) + sphere.radius) * kRounding + slack);
+    box.min[axis] = static_cast<float>(center - sphere.radius) - grown;
+    box.max[axis] = static_cast<float>(center + sphere.radius) + grown;
   }
   return box;
 }
@@ -68,59 +69,76 @@ kernels::Line lineOf(const Segment& segment) {
   return line;
 }
 
-/// Appends the ids of the boxes that overlap a box and pass a test, in ascending order.
-/// @param make_box  returns the box [m]; called only if it is needed
-/// @param may_have  called as bool may_have(const Occupancy&); says whether a layer needs a search
-template <class Engine, class MakeBox, class MayHave, class Test>
-void appendOverlapping(const Engine& engine, MakeBox&& make_box, MayHave&& may_have, std::vector<ProxyId>& found,
-                       Test&& test) {
-  const std::size_t before = found.size();
-  visitOverlapping(engine, make_box, may_have, [&](const Layer& layer, const PositionWriter& positions) {
-    std::size_t count = found.size();
-    found.resize(count + positions.size());
-    for (const std::uint32_t position : positions) {  // Store unconditionally and advance by 0 or 1: no misprediction
-      found[count] = layer.ids()[position];
-      count += test(layer.boxAt(position)) ? 1 : 0;
-    }
-    found.resize(count);
-  });
-  if (found.size() > before + 1) sortIds(found.data() + before, found.size() - before);
+/// Appends the ids of the found boxes that pass a test. @param boxes  see visitFound()
+template <class Boxes, class Test>
+void append(const Boxes& boxes, const PositionWriter& places, std::vector<ProxyId>& found, Test&& test) {
+  std::size_t count = found.size();
+  found.resize(count + places.size());
+  for (const std::uint32_t place : places) {  // Store unconditionally and advance by 0 or 1: no misprediction
+    found[count] = boxes.idAt(place);
+    count += test(boxes.boxAt(place)) ? 1 : 0;
+  }
+  found.resize(count);
+}
+
+/// Sorts the ids from index `begin` on.
+void sortFrom(std::size_t begin, std::vector<ProxyId>& found) {
+  if (found.size() > begin + 1) sortIds(found.data() + begin, found.size() - begin);
 }
 
 // Each answer() appends the answer of one query to `found`. Several threads may call it at the same time.
 template <class Engine>
 void answer(const Engine& engine, const Aabb& query, std::vector<ProxyId>& found) {
-  const kernels::Box box = boxOf(query);
-  appendOverlapping(
-      engine, [&] { return box; }, [&](const Occupancy& occupancy) { return occupancy.mayOverlap(box); }, found,
-      [](const Aabb&) { return true; });
+  const std::size_t before = found.size();
+  visitOverlapping(engine, boxOf(query), [&](const auto& boxes, const PositionWriter& places) {
+    append(boxes, places, found, [](const Aabb&) { return true; });
+  });
+  sortFrom(before, found);
 }
 
 template <class Engine>
 void answer(const Engine& engine, const Sphere& query, std::vector<ProxyId>& found) {
-  const double near = touchingDistance(query);
-  appendOverlapping(
-      engine, [&] { return boxOf(query); },
-      [&](const Occupancy& occupancy) { return occupancy.mayBeNear(query.center.data(), near); }, found,
-      [&](const Aabb& box) { return squaredDistance(box, query.center) <= near * near; });
+  const std::size_t before = found.size();
+  visitFound(
+      engine,
+      [&](const kernels::BoxTree& tree, kernels::PositionSink* sink) {
+        engine.loops->nearInTree(&tree, query.center.data(), query.radius, sink);
+        return true;
+      },
+      [&](const Occupancy& occupancy) { return occupancy.mayBeNear(query.center.data(), touchingDistance(query)); },
+      [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) {
+        const kernels::Box box = boxOf(query);
+        engine.loops->overlapping(&levels, &box, sink);
+      },
+      [&](const auto& boxes, const PositionWriter& places) {
+        const double near = touchingDistance(query);
+        append(boxes, places, found,
+               [&](const Aabb& box) { return squaredDistance(box, query.center) <= near * near; });
+      });
+  sortFrom(before, found);
 }
 
 template <class Engine>
 void answer(const Engine& engine, const Segment& query, std::vector<SegmentHit>& found) {
-  const kernels::Kernels& kernels = kernels::of(engine.isa);
-  const kernels::Line line = lineOf(query);
   const std::size_t before = found.size();
   visitFound(
-      engine, [&](const Occupancy& occupancy) { return occupancy.mayTouch(line); },
-      [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) { kernels.along(&levels, &line, sink); },
-      [&](const Layer& layer, const PositionWriter& positions) {
+      engine,
+      [&](const kernels::BoxTree& tree, kernels::PositionSink* sink) {
+        return engine.loops->alongInTree(&tree, query.from.data(), query.to.data(), query.radius, sink);
+      },
+      [&](const Occupancy& occupancy) { return occupancy.mayTouch(lineOf(query)); },
+      [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) {
+        const kernels::Line line = lineOf(query);
+        engine.loops->along(&levels, &line, sink);
+      },
+      [&](const auto& boxes, const PositionWriter& places) {
         const FirstTouch firstTouch(query);
-        for (const std::uint32_t position : positions) {
-          const auto along = firstTouch(layer.boxAt(position));
-          if (along) found.push_back({layer.ids()[position], *along});
+        for (const std::uint32_t place : places) {
+          const auto along = firstTouch(boxes.boxAt(place));
+          if (along) found.push_back({boxes.idAt(place), *along});
         }
       });
-  sortFew(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(), earlier);
+  if (found.size() > before + 1) sortFew(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(), earlier);
 }
 
 Eigen::Vector3f positionOf(const Aabb& box) { return box.min; }
@@ -264,6 +282,17 @@ void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<
 
 }  // namespace
 
+void HGrid::Engine::prepareQueries() const {
+  const std::lock_guard<std::mutex> lock(tree_mutex);
+  for (std::size_t number = 0; number < layers.size(); ++number) {
+    if (layers[number].size() == 0 || treeOf(number) != nullptr) continue;
+    trees[number].build(layers[number]);
+    tree_changes[number].store(layers[number].changes(), std::memory_order_release);
+  }
+}
+
+void HGrid::prepareQueries() const { engine_->prepareQueries(); }
+
 void HGrid::overlapping(const Aabb& box, std::vector<ProxyId>& found) const {
   found.clear();
   answer(*engine_, box, found);
@@ -312,8 +341,8 @@ void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limi
         if (e.isStored(id)) consider(id, e.boxes[id]);
       }
     } else {
-      visitOverlapping(e, boxOf(Sphere{point, radius}), [&](const Layer& layer, const PositionWriter& positions) {
-        for (const std::uint32_t i : positions) consider(layer.ids()[i], layer.boxAt(i));
+      visitOverlapping(e, boxOf(Sphere{point, radius}), [&](const auto& boxes, const PositionWriter& places) {
+        for (const std::uint32_t place : places) consider(boxes.idAt(place), boxes.boxAt(place));
       });
     }
     const std::size_t kept = std::min(count, found.size());

@@ -92,6 +92,23 @@ struct Line {
   double around;
 };
 
+/// Up to 16 boxes of a BoxTree, with what is below each of them.
+struct alignas(64) TreeBlock {
+  static constexpr std::uint32_t kBoxes = 16;
+  float bounds[6][kBoxes];      ///< [m] min x, min y, min z, max x, max y, max z; +inf and -inf in unused lanes
+  std::uint32_t below[kBoxes];  ///< in inner blocks: the node that each box bounds; in leaves: the id of each box
+};
+
+/// A tree of bounding volumes (Ericson 2005, chapter 6) over boxes. Each node is one or two blocks. A node is a number:
+/// bit 0 says whether it is a leaf, bit 1 whether it has two blocks, and the other bits are the index of its first
+/// block. A leaf has one block.
+struct BoxTree {
+  static constexpr int kMostDepth = 20;  ///< largest number of nodes from the root to a leaf
+  const TreeBlock* inner;
+  const TreeBlock* leaves;
+  std::uint32_t root;
+};
+
 /// A buffer that kernels write their results to. They write at `next` and advance `next`. If fewer than 16 places are
 /// left before `limit`, they first call `grow`, and `grow` makes room.
 template <class Found>
@@ -169,6 +186,13 @@ struct Kernels {
   void (*overlapping)(const LevelSet* set, const Box* box, PositionSink* sink);
   /// Finds all boxes within the radius `around` of a line, and a few boxes more. Writes their positions.
   void (*along)(const LevelSet* set, const Line* line, PositionSink* sink);
+  /// Finds the boxes of a tree that overlap `box`. Writes their slots: 16 * index of the leaf + lane.
+  void (*overlappingInTree)(const BoxTree* tree, const Box* box, PositionSink* sink);
+  /// Finds all boxes of a tree within `radius` [m] of a point, and a few boxes more. Writes their slots.
+  void (*nearInTree)(const BoxTree* tree, const double* center, double radius, PositionSink* sink);
+  /// Finds all boxes of a tree within `radius` [m] of a line from one point to another, and a few boxes more. Writes
+  /// their slots. Returns false, without a search, if the sum of all coordinates is 1e30 m or more.
+  bool (*alongInTree)(const BoxTree* tree, const double* from, const double* to, double radius, PositionSink* sink);
 };
 
 /// Returns the inner loops for an instruction set. isSupported(isa) must be true.

@@ -11,12 +11,14 @@
 #include "broadphase/kernels/line_body.h"
 #include "broadphase/kernels/pairs_body.h"
 #include "broadphase/kernels/sorting_body.h"
+#include "broadphase/kernels/tree_body.h"
 
 namespace hgrid {
 namespace kernels {
 namespace {
 
-constexpr Kernels kKernels = {sound, key, keyRegions, pairsWithin, pairsAcross, reaching, overlapping, along};
+constexpr Kernels kKernels = {sound,       key,   keyRegions,        pairsWithin, pairsAcross, reaching,
+                              overlapping, along, overlappingInTree, nearInTree,  alongInTree};
 
 }  // namespace
 }  // namespace kernels

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "broadphase/hgrid/query_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "geometry/infinity.h"
+
+namespace hgrid {
+namespace {
+
+constexpr std::uint32_t kLeaf = kernels::TreeBlock::kBoxes;         // largest number of boxes in a leaf
+constexpr std::uint32_t kFan = kernels::TreeBlock::kBoxes;          // nodes below a node with one block
+constexpr std::uint32_t kWideFan = 2 * kernels::TreeBlock::kBoxes;  // nodes below a node with two blocks
+constexpr std::uint32_t kWide = kWideFan * kLeaf;                   // largest number of boxes below a node above leaves
+constexpr int kDepthByArea = 8;  // nodes from this depth on are divided at medians, so that the depth is bounded
+
+struct Item {
+  kernels::Box box;
+  ProxyId id;
+  /// Returns the coordinate of the center.
+  float center(int axis) const { return 0.5f * box.min[axis] + 0.5f * box.max[axis]; }
+};
+
+/// The bounds of some boxes, and those of their centers.
+struct Bounds {
+  kernels::Box box = {{kFloatInfinity, kFloatInfinity, kFloatInfinity},
+                      {-kFloatInfinity, -kFloatInfinity, -kFloatInfinity}};
+  kernels::Box centers = box;
+
+  void add(const Item& item) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const float center = item.center(axis);
+      box.min[axis] = std::min(box.min[axis], item.box.min[axis]);
+      box.max[axis] = std::max(box.max[axis], item.box.max[axis]);
+      centers.min[axis] = std::min(centers.min[axis], center);
+      centers.max[axis] = std::max(centers.max[axis], center);
+    }
+  }
+  void add(const Bounds& other) {
+    for (int axis = 0; axis < 3; ++axis) {
+      box.min[axis] = std::min(box.min[axis], other.box.min[axis]);
+      box.max[axis] = std::max(box.max[axis], other.box.max[axis]);
+      centers.min[axis] = std::min(centers.min[axis], other.centers.min[axis]);
+      centers.max[axis] = std::max(centers.max[axis], other.centers.max[axis]);
+    }
+  }
+  double extent(int axis) const { return static_cast<double>(centers.max[axis]) - centers.min[axis]; }
+  /// Returns the axis on which the centers are spread most.
+  int longestAxis() const {
+    int longest = 0;
+    for (int axis = 1; axis < 3; ++axis) longest = extent(axis) > extent(longest) ? axis : longest;
+    return longest;
+  }
+  /// Returns half of the surface area [m²].
+  double area() const {
+    const double x = static_cast<double>(box.max[0]) - box.min[0], y = static_cast<double>(box.max[1]) - box.min[1],
+                 z = static_cast<double>(box.max[2]) - box.min[2];
+    return x * y + y * z + z * x;
+  }
+};
+
+/// A range of items with their bounds.
+struct Part {
+  std::uint32_t begin, end;
+  Bounds bounds;
+  std::uint32_t size() const { return end - begin; }
+};
+
+std::uint32_t leavesFor(std::uint32_t boxes) { return (boxes + kLeaf - 1) / kLeaf; }
+
+class Builder {
+ public:
+  Builder(std::vector<Item>& items, std::vector<kernels::TreeBlock>& inner, std::vector<kernels::TreeBlock>& leaves)
+      : items_(items), inner_(inner), leaves_(leaves) {}
+
+  Part partOf(std::uint32_t begin, std::uint32_t end) const {
+    Part part{begin, end, {}};
+    for (std::uint32_t i = begin; i < end; ++i) part.bounds.add(items_[i]);
+    return part;
+  }
+
+  /// Adds the nodes for a part. Returns the topmost of them.
+  std::uint32_t build(const Part& part, int depth) {
+    if (part.size() <= kLeaf) return addLeaf(part);
+    std::array<Part, kWideFan> parts;
+    std::uint32_t count = 0;
+    if (part.size() > kWide) {
+      count = divide(part, depth, parts);
+    } else {
+      splitEvenly(part, kLeaf, parts, count);
+    }
+    const std::uint32_t blocks = (count + kFan - 1) / kFan, first = static_cast<std::uint32_t>(inner_.size());
+    inner_.resize(first + blocks, blank());
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t below = build(parts[i], depth + 1);
+      put(inner_[first + i / kFan], i % kFan, parts[i].bounds.box, below);
+    }
+    return first << 2 | (blocks - 1) << 1;
+  }
+
+ private:
+  static kernels::TreeBlock blank() {
+    kernels::TreeBlock block{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::fill_n(block.bounds[axis], kFan, kFloatInfinity);
+      std::fill_n(block.bounds[axis + 3], kFan, -kFloatInfinity);
+    }
+    return block;
+  }
+  static void put(kernels::TreeBlock& block, std::uint32_t lane, const kernels::Box& box, std::uint32_t below) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      block.bounds[axis][lane] = box.min[axis];
+      block.bounds[axis + 3][lane] = box.max[axis];
+    }
+    block.below[lane] = below;
+  }
+  std::uint32_t addLeaf(const Part& part) {
+    kernels::TreeBlock block = blank();
+    for (std::uint32_t i = part.begin; i < part.end; ++i) put(block, i - part.begin, items_[i].box, items_[i].id);
+    leaves_.push_back(block);
+    return static_cast<std::uint32_t>(leaves_.size() - 1) << 2 | 1u;
+  }
+
+  /// Sorts the items of a part so that the centers before position `middle` are not greater than those from it on.
+  void partition(const Part& part, std::uint32_t middle) {
+    const int axis = part.bounds.longestAxis();
+    std::nth_element(items_.begin() + part.begin, items_.begin() + middle, items_.begin() + part.end,
+                     [axis](const Item& a, const Item& b) { return a.center(axis) < b.center(axis); });
+  }
+
+  /// Divides a part into parts of `each` boxes; the last one may have fewer.
+  void splitEvenly(const Part& part, std::uint32_t each, std::array<Part, kWideFan>& parts, std::uint32_t& count) {
+    if (part.size() <= each) {
+      parts[count++] = part;
+      return;
+    }
+    const std::uint32_t middle = part.begin + (part.size() + each - 1) / each / 2 * each;
+    partition(part, middle);
+    splitEvenly(partOf(part.begin, middle), each, parts, count);
+    splitEvenly(partOf(middle, part.end), each, parts, count);
+  }
+
+  /// Divides a part into up to 16 parts. Always splits the part with the largest cost by the surface area heuristic, or
+  /// below kDepthByArea halves the largest part.
+  std::uint32_t divide(const Part& part, int depth, std::array<Part, kWideFan>& parts) {
+    const bool by_area = depth < kDepthByArea;
+    parts[0] = part;
+    std::uint32_t count = 1;
+    for (; count < kFan; ++count) {
+      Part* next = nullptr;
+      std::pair<double, std::uint32_t> most;  // cost and size, because all costs may be 0
+      for (std::uint32_t i = 0; i < count; ++i) {
+        if (parts[i].size() <= kLeaf) continue;
+        const std::pair<double, std::uint32_t> cost(by_area ? parts[i].bounds.area() * parts[i].size() : 0.0,
+                                                    parts[i].size());
+        if (next != nullptr && !(most < cost)) continue;
+        next = &parts[i];
+        most = cost;
+      }
+      if (next == nullptr) break;
+      parts[count] = by_area ? splitByArea(*next) : splitAtMedian(*next);
+    }
+    return count;
+  }
+
+  /// Halves a part. The part keeps the first half. Returns the second half.
+  Part splitAtMedian(Part& part) {
+    const std::uint32_t middle = part.begin + part.size() / 2;
+    partition(part, middle);
+    const Part second = partOf(middle, part.end);
+    part = partOf(part.begin, middle);
+    return second;
+  }
+
+  /// Splits a part where the sum of area * leaves of the two halves is smallest. The part keeps the first half. Returns
+  /// the second half.
+  Part splitByArea(Part& part) {
+    constexpr int kBins = 16;
+    const int axis = part.bounds.longestAxis();
+    if (!(part.bounds.extent(axis) > 0.0)) return splitAtMedian(part);
+    const double low = part.bounds.centers.min[axis], scale = kBins / part.bounds.extent(axis);
+    const auto binOf = [=](const Item& item) {
+      return std::min(static_cast<int>((static_cast<double>(item.center(axis)) - low) * scale), kBins - 1);
+    };
+    std::array<Part, kBins> bins{};  // of each bin only `end`, as the number of its boxes, and `bounds` are used
+    for (std::uint32_t i = part.begin; i < part.end; ++i) {
+      Part& bin = bins[static_cast<std::size_t>(binOf(items_[i]))];
+      bin.bounds.add(items_[i]);
+      ++bin.end;
+    }
+    std::array<Part, kBins> after{};  // the bins from each bin on
+    after[kBins - 1] = bins[kBins - 1];
+    for (std::size_t i = kBins - 1; i-- > 0;) {
+      after[i] = bins[i];
+      after[i].bounds.add(after[i + 1].bounds);
+      after[i].end += after[i + 1].end;
+    }
+    Part before{}, first{}, second{};
+    double least = -1.0;
+    int last = 0;  // the last bin of the first half
+    for (std::size_t i = 0; i + 1 < kBins; ++i) {
+      before.bounds.add(bins[i].bounds);
+      before.end += bins[i].end;
+      if (before.end == 0 || after[i + 1].end == 0) continue;
+      const double cost =
+          before.bounds.area() * leavesFor(before.end) + after[i + 1].bounds.area() * leavesFor(after[i + 1].end);
+      if (least >= 0.0 && !(cost < least)) continue;
+      least = cost;
+      last = static_cast<int>(i);
+      first = before;
+      second = after[i + 1];
+    }
+    if (least < 0.0) return splitAtMedian(part);
+    std::partition(items_.begin() + part.begin, items_.begin() + part.end,
+                   [&](const Item& item) { return binOf(item) <= last; });
+    second.begin = part.begin + first.end;
+    second.end = part.end;
+    part = {part.begin, second.begin, first.bounds};
+    return second;
+  }
+
+  std::vector<Item>& items_;
+  std::vector<kernels::TreeBlock>&inner_, &leaves_;
+};
+
+/// Returns whether a box contains another one.
+bool contains(const kernels::Box& outer, const Aabb& inner) {
+  bool all = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    all = all && outer.min[axis] <= inner.min[axis] && outer.max[axis] >= inner.max[axis];
+  }
+  return all;
+}
+
+}  // namespace
+
+void QueryTree::build(const Layer& layer) {
+  std::vector<Item> items;
+  items.reserve(layer.size());
+  for (std::uint32_t i = 0; i < layer.size(); ++i) {
+    if (layer.isWithdrawn(i)) continue;
+    const Aabb box = layer.boxAt(i);
+    items.push_back({{{box.min[0], box.min[1], box.min[2]}, {box.max[0], box.max[1], box.max[2]}}, layer.idAt(i)});
+  }
+  inner_.clear();
+  leaves_.clear();
+  leaves_.reserve(items.size() / kLeaf + 1);
+  Builder builder(items, inner_, leaves_);
+  const std::uint32_t root = builder.build(builder.partOf(0, static_cast<std::uint32_t>(items.size())), 0);
+  view_ = {inner_.data(), leaves_.data(), root};
+}
+
+void QueryTree::checkInvariants(const Layer& layer) const {
+  const auto require = [](bool holds, const char* invariant) {
+    if (!holds) throw std::logic_error(std::string("QueryTree: this invariant is violated: ") + invariant);
+  };
+  std::map<ProxyId, Aabb> missing;
+  for (std::uint32_t i = 0; i < layer.size(); ++i) {
+    if (!layer.isWithdrawn(i)) missing[layer.idAt(i)] = layer.boxAt(i);
+  }
+  const std::function<void(std::uint32_t, const std::vector<kernels::Box>&)> check =
+      [&](std::uint32_t node, const std::vector<kernels::Box>& around) {
+        require(around.size() < kernels::BoxTree::kMostDepth, "the depth is bounded");
+        const bool leaf = (node & 1u) != 0;
+        for (std::uint32_t block = node >> 2; block <= (node >> 2) + (node >> 1 & 1u); ++block) {
+          for (std::uint32_t lane = 0; lane < kFan; ++lane) {
+            const Aabb box = boxIn((leaf ? leaves_ : inner_)[block], lane);
+            if (!(box.min.array() <= box.max.array()).all()) {
+              require(box.min.minCoeff() == kFloatInfinity && box.max.maxCoeff() == -kFloatInfinity,
+                      "unused lanes are empty");
+              continue;
+            }
+            for (const kernels::Box& outer : around) require(contains(outer, box), "a node contains what is below it");
+            if (leaf) {
+              const auto stored = missing.find(leaves_[block].below[lane]);
+              require(stored != missing.end(), "each box of the tree is in the layer, and in the tree only once");
+              require(stored->second == box, "the boxes of the tree are those of the layer");
+              missing.erase(stored);
+            } else {
+              std::vector<kernels::Box> with = around;
+              with.push_back({{box.min[0], box.min[1], box.min[2]}, {box.max[0], box.max[1], box.max[2]}});
+              check(inner_[block].below[lane], with);
+            }
+          }
+        }
+      };
+  check(view_.root, {});
+  require(missing.empty(), "each box of the layer is in the tree");
+}
+
+}  // namespace hgrid
