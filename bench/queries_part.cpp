@@ -3,6 +3,8 @@
 #include <cstdio>
 
 #include "bench/measure/match.h"
+#include "bench/measure/median.h"
+#include "bench/measure/turns.h"
 #include "bench/parts.h"
 #include "bench/queries/queries_play.h"
 #include "bench/workload/workloads.h"
@@ -81,6 +83,31 @@ void play(const std::vector<QueryPeerKind>& kinds, const Options& options, const
   std::fflush(stdout);
 }
 
+/// Measures how long each peer takes to prepare for queries.
+void prepare(const std::vector<QueryPeerKind>& kinds, const Options& options, const std::string& workload,
+             const World& world, std::vector<Record>& records) {
+  constexpr std::size_t kTurns = 3;
+  std::vector<std::vector<double>> ms(kinds.size());
+  for (std::size_t turn = 0; turn < kTurns; ++turn) {
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+      if (!options.peer(kinds[i].name)) continue;
+      const std::unique_ptr<QueryPeer> peer = kinds[i].make();
+      const Clock::time_point begin = Clock::now();
+      peer->load(world.boxes());
+      ms[i].push_back(msSince(begin));
+    }
+  }
+  std::printf("\n%s, n = %zu: preparation for queries, median of %zu\n", workload.c_str(), world.boxes().size(), kTurns);
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    if (ms[i].empty()) continue;
+    Record record("preparation");
+    record.text("peer", kinds[i].name).text("workload", workload).number("n", double(world.boxes().size()));
+    record.number("median_ms", medianOf(ms[i])).flag("correct", true).text("status", "ok");
+    records.push_back(record);
+    std::printf("  %-28s %10.4f ms\n", kinds[i].name.c_str(), medianOf(ms[i]));
+  }
+}
+
 }  // namespace
 
 void runQueriesOf(const std::vector<QueryPeerKind>& kinds, std::size_t n, const Options& options,
@@ -93,6 +120,7 @@ void runQueriesOf(const std::vector<QueryPeerKind>& kinds, std::size_t n, const 
   }
   for (const std::string& workload : options.boxWorkloads(usual)) {
     const World world(workload, n, 1.0);
+    prepare(kinds, options, workload, world, records);
     const QuerySet anywhere = queriesAnywhere(world, options.questions);
     for (const QueryKind kind : {QueryKind::sphere, QueryKind::segment, QueryKind::box})
       play(kinds, options, {workload, Placed::anywhere, kind}, world, anywhere, records);

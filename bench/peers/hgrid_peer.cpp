@@ -49,12 +49,15 @@ class HGridPeer final : public Peer {
 
 class HGridQueries final : public QueryPeer {
  public:
+  /// @param prepared  whether load() also calls prepareQueries()
+  explicit HGridQueries(bool prepared) : prepared_(prepared) {}
+
   void load(const std::vector<Aabb>& boxes) override {
     std::vector<ProxyId> ids(boxes.size());
     std::iota(ids.begin(), ids.end(), 0);
     grid_.emplace(GridScale::fitting(boxes));
     grid_->update(ids, boxes);
-    if (!getenv("NOPREP")) grid_->prepareQueries();
+    if (prepared_) grid_->prepareQueries();
   }
 
   bool answers(QueryKind kind, bool batched) const override {
@@ -89,6 +92,7 @@ class HGridQueries final : public QueryPeer {
   }
 
  private:
+  bool prepared_;
   std::optional<HGrid> grid_;
   std::vector<SegmentHit> met_;
   std::vector<NearHit> near_;
@@ -117,7 +121,9 @@ std::unique_ptr<Peer> makeHGrid(int threads, const std::string& instructions) {
   return std::make_unique<HGridPeer>(threads, chosen);
 }
 
-std::unique_ptr<QueryPeer> makeHGridQueries() { return std::make_unique<HGridQueries>(); }
+std::unique_ptr<QueryPeer> makeHGridQueries() { return std::make_unique<HGridQueries>(true); }
+
+std::unique_ptr<QueryPeer> makeUnpreparedHGridQueries() { return std::make_unique<HGridQueries>(false); }
 
 }  // namespace bench
 }  // namespace hgrid

@@ -17,6 +17,7 @@ class QueryPeer {
  public:
   virtual ~QueryPeer() = default;
 
+  /// Stores the boxes and does everything that makes later queries faster.
   virtual void load(const std::vector<Aabb>& boxes) = 0;
   /// Returns whether the peer answers queries of this kind. If `batched`, one call answers all queries; else each call
   /// answers one.
@@ -43,7 +44,8 @@ struct QueryPeerKind {
 const std::vector<QueryPeerKind>& queryPeers();
 
 // One factory per peer. If the library of a peer was not found, its factory is declared but not defined.
-std::unique_ptr<QueryPeer> makeHGridQueries();
+std::unique_ptr<QueryPeer> makeHGridQueries();            // calls HGrid::prepareQueries() before the first query
+std::unique_ptr<QueryPeer> makeUnpreparedHGridQueries();  // does not
 std::unique_ptr<QueryPeer> makeFclQueries();
 std::unique_ptr<QueryPeer> makeBulletQueries();
 std::unique_ptr<QueryPeer> makeBoostQueries();

@@ -8,6 +8,7 @@ namespace bench {
 const std::vector<QueryPeerKind>& queryPeers() {
   static const std::vector<QueryPeerKind> kinds{
       {"hgrid", makeHGridQueries},
+      {"hgrid unprepared", makeUnpreparedHGridQueries},
 #ifdef HGRID_BENCH_FCL
       {"FCL DynamicAABBTree", makeFclQueries},
 #endif

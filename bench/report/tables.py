@@ -278,6 +278,8 @@ def sections(figures):
         found.append(('Two threads', THREADS_NOTE + '\n\n' + threads(figures)))
     if figures.all('ageing'):
         found.append(('Aging', ageing(figures)))
+    if figures.all('preparation'):
+        found.append(('Preparation for queries', world_tables.preparation(figures)))
     if figures.all('query', placed='near'):
         found.append(('Queries near boxes', queries(figures)))
     if figures.all('query', placed='anywhere'):

@@ -13,6 +13,8 @@ LOADING_NOTE = 'Median ms in which a new peer loads all boxes and finds the pair
 MOVERS_NOTE = ('Median ms per frame: the same boxes move in every frame / other boxes move in each frame, chosen at '
                'random. In the second case, 30 frames come before the measured ones.')
 
+PREPARATION_NOTE = ('Median of three: all boxes are stored, and what makes later queries faster is built. For hgrid this is '
+                    'one bulk update and `prepareQueries()`; for hgrid unprepared, the bulk update alone.')
 EMPTY_NOTE = ('Median µs per query. The queries are at random places in the bounds of all boxes. Their size gives '
               'about half a hit per query if the world is not too empty for that.')
 
@@ -59,6 +61,15 @@ def changing(figures):
         heads = ['%s, %g %%' % (workload, 100 * moving) for workload, moving in settings]
         tables.append(table(['n = ' + count(n)] + heads, rows))
     return '\n\n'.join([MOVERS_NOTE] + tables)
+
+
+def preparation(figures):
+    """Returns one row per workload and one column per peer."""
+    found = figures.all('preparation')
+    peers = list(dict.fromkeys(record['peer'] for record in found))
+    rows = [[workload] + [shown(figures.one('preparation', peer=peer, workload=workload)) for peer in peers]
+            for workload in dict.fromkeys(record['workload'] for record in found)]
+    return PREPARATION_NOTE + '\n\n' + table(['ms, n = ' + count(found[-1]['n'])] + peers, rows)
 
 
 def empty_space(figures):
