@@ -19,6 +19,7 @@ constexpr std::size_t kWorthCopying = std::size_t{1} << 18;  // number of boxes;
 constexpr int kSortsPerPlan = 64;                            // after so many sorts, the layer makes a new plan
 constexpr int kSortsPerCheck = 8;                            // after so many sorts, a layer with one row is checked
 constexpr std::size_t kWorthRegions = 64;                    // a layer with fewer boxes than this has one region
+constexpr std::size_t kWorthOccupancy = 2048;                // for fewer boxes, the bits take too much memory per box
 constexpr double kCrowded = 32.0;     // from this crowding() on, regions are tried; evenly spread boxes have about 2
 constexpr double kLessCrowded = 0.6;  // regions are used if they reduce crowding() to less than this fraction
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();  // every comparison with it is false
@@ -161,7 +162,7 @@ bool Layer::divide(const std::vector<Aabb>& boxes, double finest_edge, const Mac
     growTo(scratch.counts, (threads - 1) * plan_.cells());
     levels_.reserve(plan_.levels());
     level_bounds_.reserveLevels(plan_.levels());
-    occupancy_.reserve();
+    if (count_ >= kWorthOccupancy) occupancy_.reserve();
     growTo(start_, plan_.cells() + std::size_t{1});
   } catch (const std::bad_alloc&) {
     return false;
@@ -343,7 +344,7 @@ void Layer::describe(const SortScratch& scratch) {
   point();
   level_bounds_.setLevels(levels_);
   if (isOneRow()) box_bounds_.setBoxes(levels_.front());
-  if (plan_.isDivided()) {
+  if (plan_.isDivided() && occupancy_.isReserved()) {
     occupancy_.set(levels_);
   } else {
     occupancy_.clear();  // cells, or the bounds of boxes, lead a query past empty parts

@@ -25,6 +25,8 @@ class Occupancy {
     rows_.reserve(kRows);
     near_rows_.reserve(kRows);
   }
+  /// Returns whether reserve() was called.
+  bool isReserved() const { return rows_.capacity() >= kRows && near_rows_.capacity() >= kRows; }
   /// From now on, all space may have boxes. Allocates nothing.
   void clear() { rows_.clear(); }
   /// Computes the bits for these levels. If most cells are occupied, works like clear(), because then the bits are of
