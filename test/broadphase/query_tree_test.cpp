@@ -49,6 +49,7 @@ Answers answersOf(const BroadPhaseReader& tested, const std::vector<Aabb>& boxes
     along_axis[i % 3] += size * random.logUniform(0.1, 100.0);
     answers.push_back(test::foundBy(tested, boxAround(near, size * randomVector(random, 0.0, 2.0))));
     answers.push_back(test::foundBy(tested, Sphere{i % 2 == 0 ? near : corner, i % 5 == 0 ? 0.0 : size}));
+    answers.push_back(test::foundBy(tested, Sphere{corner + size * Eigen::Vector3d::Unit(i % 3), size}));  // touches it
     for (const Segment& segment :
          {Segment{near, far, 0.0}, Segment{corner, other, i % 2 == 0 ? 0.0 : size}, Segment{corner, along_axis, 0.0},
           Segment{along_axis, corner, 0.0}, Segment{corner, corner, 0.0}}) {
