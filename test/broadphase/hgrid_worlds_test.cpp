@@ -273,6 +273,15 @@ TEST(HGridWorlds, QueriesOfARowAreRightWhileSingleBoxesComeAndMove) {
   }
 }
 
+/// Returns the ids of the boxes along a segment in ascending order, because the order of two hits at almost the same
+/// place is a matter of rounding.
+std::vector<ProxyId> idsAlong(const BroadPhaseReader& tested, const Segment& segment) {
+  std::vector<ProxyId> ids;
+  for (const SegmentHit& hit : test::alongOf(tested, segment)) ids.push_back(hit.id);
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
 TEST(HGridWorlds, SegmentsNearTheLargestFloatMissNothing) {
   for (unsigned seed = 0; seed < 300; ++seed) {
     Random random(seed);
@@ -291,6 +300,33 @@ TEST(HGridWorlds, SegmentsNearTheLargestFloatMissNothing) {
       const Segment segment{double(far) * Eigen::Vector3d(random.uniform(0.2, 1), random.uniform(0, 1), 0.5),
                             double(far) * Eigen::Vector3d(1.0, random.uniform(0.9, 1.1), 1.0), 0.0};
       ASSERT_EQ(test::alongOf(grid, segment), test::alongOf(brute_force, segment)) << seed;
+    }
+  }
+}
+
+TEST(HGridWorlds, SegmentsThatHardlyMoveAlongAnAxisMissNothing) {
+  for (unsigned seed = 0; seed < 400; ++seed) {
+    Random random(seed);
+    std::vector<Aabb> boxes;
+    for (int i = random.below(20); i >= 0; --i) {
+      boxes.push_back(boxAround(randomVector(random, -5, 5), randomVector(random, 0, 1)));
+    }
+    test::BruteForce brute_force;
+    brute_force.update(allIds(boxes.size()), boxes);
+    for (const Isa isa : test::supportedIsas()) {
+      HGrid grid;
+      grid.setIsa(isa);
+      grid.update(allIds(boxes.size()), boxes);
+      for (int i = 0; i < 40; ++i) {
+        const Eigen::Vector3d from = randomVector(random, -5, 5);
+        Segment segment{from, from, random.logUniform(0.1, 10.0)};
+        for (int axis = 0; axis < 3; ++axis) {  // a step of 1e-60 is lost if it is added to another number
+          if (random.chance(0.5)) segment.from[axis] = 0.0;
+          segment.to[axis] = segment.from[axis] + random.logUniform(1e-60, 1e3) * (random.chance(0.5) ? 1.0 : -1.0);
+        }
+        ASSERT_EQ(idsAlong(grid, segment), idsAlong(brute_force, segment)) << seed << ", " << name(isa);
+        if (i == 20) grid.prepareQueries();
+      }
     }
   }
 }

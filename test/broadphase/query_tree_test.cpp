@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <thread>
 
 #include "test/support/brute_force.h"
@@ -149,6 +150,31 @@ TEST(QueryTree, ChangesNoAnswerOfManyBoxes) {
       ASSERT_TRUE(answersOf(grid, boxes, 2, 20) == expected) << name(isa);
     }
     ASSERT_NO_THROW(grid.checkInvariants());
+  }
+}
+
+TEST(QueryTree, FindsAllBoxesOfAnInfiniteQuery) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (const Isa isa : test::supportedIsas()) {
+    for (const std::size_t count : {1, 20, 700, 9000}) {
+      SCOPED_TRACE(name(isa) + (", boxes: " + std::to_string(count)));
+      Random random(1);
+      std::vector<Aabb> boxes;
+      for (std::size_t i = 0; i < count; ++i) {
+        boxes.push_back(boxAround(randomVector(random, -50, 50), randomVector(random, 0, 1)));
+      }
+      HGrid grid;
+      grid.setIsa(isa);
+      grid.update(allIds(count), boxes);
+      grid.prepareQueries();
+      const Eigen::Vector3f all = Eigen::Vector3f::Constant(kInfinity);
+      const Eigen::Vector3d origin = Eigen::Vector3d::Zero(), far = Eigen::Vector3d::Constant(1e39);
+      EXPECT_EQ(test::foundBy(grid, Aabb{-all, all}), allIds(count));
+      EXPECT_EQ(test::foundBy(grid, Sphere{origin, double(kInfinity)}), allIds(count));
+      EXPECT_EQ(test::foundBy(grid, Sphere{far, 2e39}), allIds(count));
+      EXPECT_EQ(test::alongOf(grid, Segment{origin, Eigen::Vector3d::UnitX(), double(kInfinity)}).size(), count);
+      EXPECT_EQ(test::foundBy(grid, Aabb{all, all}), std::vector<ProxyId>{});
+    }
   }
 }
 

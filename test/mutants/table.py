@@ -10,6 +10,7 @@ PAIRS_BODY = "broadphase/kernels/pairs_body.h"
 BOXES_BODY = "broadphase/kernels/boxes_body.h"
 LINE_BODY = "broadphase/kernels/line_body.h"
 LINE_FILTER = "broadphase/kernels/line_filter_body.h"
+TREE_BODY = "broadphase/kernels/tree_body.h"
 AVX2 = "broadphase/kernels/simd_avx2.h"
 LAYER = "broadphase/hgrid/layer.cpp"
 ENGINE = "broadphase/hgrid/engine.cpp"
@@ -145,6 +146,16 @@ CORE = [
      "(bits + 0x7fffffu) >> 23", "bits >> 23"),
     ("no box is outside the window", "broadphase/hgrid/box_sample.cpp",
      "low_[axis] = lowest[size_ / 100]", "low_[axis] = lowest[0]"),
+    ("a tree of a layer is used after a box was withdrawn", LAYER,
+     "++changes_;\n  // The minimum", "// The minimum"),
+    ("a line is tested in a tree without room for rounding", TREE_BODY,
+     "radius + 2e-6 * sum", "radius"),
+    ("a sphere is tested in a tree without room for rounding", TREE_BODY,
+     "radius + (3e-7 * sum + 1e-37)", "radius"),
+    ("a line of step -0 enters a box of a tree where it leaves it", TREE_BODY,
+     "inverse < 0.0f ? 3 : 0", "step < 0.0 ? 3 : 0"),
+    ("a node with many nodes below has only one block", "broadphase/hgrid/query_tree.cpp",
+     "(blocks - 1) << 1", "0u << 1"),
     ("a bit answers for too few coarse cells", "broadphase/hgrid/occupancy.cpp",
      "bits | bits >> 1", "bits"),
     ("a change of a rare shape ends a plan", "broadphase/hgrid/layer_plan.cpp",

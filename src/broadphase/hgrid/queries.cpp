@@ -102,8 +102,7 @@ void answer(const Engine& engine, const Sphere& query, std::vector<ProxyId>& fou
   visitFound(
       engine,
       [&](const kernels::BoxTree& tree, kernels::PositionSink* sink) {
-        engine.loops->nearInTree(&tree, query.center.data(), query.radius, sink);
-        return true;
+        return engine.loops->nearInTree(&tree, query.center.data(), query.radius, sink);
       },
       [&](const Occupancy& occupancy) { return occupancy.mayBeNear(query.center.data(), touchingDistance(query)); },
       [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) {

@@ -188,10 +188,10 @@ struct Kernels {
   void (*along)(const LevelSet* set, const Line* line, PositionSink* sink);
   /// Finds the boxes of a tree that overlap `box`. Writes their slots: 16 * index of the leaf + lane.
   void (*overlappingInTree)(const BoxTree* tree, const Box* box, PositionSink* sink);
-  /// Finds all boxes of a tree within `radius` [m] of a point, and a few boxes more. Writes their slots.
-  void (*nearInTree)(const BoxTree* tree, const double* center, double radius, PositionSink* sink);
-  /// Finds all boxes of a tree within `radius` [m] of a line from one point to another, and a few boxes more. Writes
-  /// their slots. Returns false, without a search, if the sum of all coordinates is 1e30 m or more.
+  /// Finds all boxes of a tree within `radius` [m] of a point, and a few boxes more. Writes their slots. Returns false,
+  /// without a search, if the sum of the radius and all coordinates is 1e30 m or more.
+  bool (*nearInTree)(const BoxTree* tree, const double* center, double radius, PositionSink* sink);
+  /// Works like nearInTree() for a line between two points.
   bool (*alongInTree)(const BoxTree* tree, const double* from, const double* to, double radius, PositionSink* sink);
 };
 

@@ -50,7 +50,7 @@ inline LineFilter filterOf(const Line& line) {
   double width[3];
   for (int axis = 0; axis < 3; ++axis) {
     const double step = line.step[axis] * scale;
-    width[axis] = magnitude(step) * 1.00001;
+    width[axis] = magnitude(step) * 1.00001 + 1e-35;  // allows for the rounding of denormal numbers, as 1e-38 below
     const double ends[2] = {line.from[axis], line.from[axis] + line.step[axis]};
     const int highest = line.step[axis] > 0.0 ? 1 : 0;  // an index, because a branch would be mispredicted
     filter.min[axis] = Simd::lanesOf(floatBelow(ends[1 - highest] - line.around));
@@ -63,8 +63,8 @@ inline LineFilter filterOf(const Line& line) {
     const double across = width[(i + 1) % 3] + width[(i + 2) % 3];
     // Sums of such large coordinates may exceed the range of float. Then this axis rejects no box.
     const bool sane = farthest < 1e30;
-    filter.slack[i] =
-        Simd::lanesOf(sane ? static_cast<float>((2.0 * line.around + 2e-5 * farthest) * across) : __builtin_inff());
+    filter.slack[i] = Simd::lanesOf(sane ? static_cast<float>((2.0 * line.around + 2e-5 * farthest) * across + 1e-38)
+                                         : __builtin_inff());
   }
   return filter;
 }
