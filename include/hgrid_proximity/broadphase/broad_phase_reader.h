@@ -91,7 +91,7 @@ class BroadPhaseReader {
   /// Prepares for many queries before the next change of the stored boxes. This makes the next queries faster and
   /// changes no answer. A broad phase that gains nothing from it does nothing. Other threads may call functions of this
   /// class meanwhile.
-  /// @throws std::bad_alloc  then nothing is prepared, and queries work as before
+  /// @throws std::bad_alloc  then only a part may be prepared, and all answers stay right
   virtual void prepareQueries() const {}
 
   ///@{

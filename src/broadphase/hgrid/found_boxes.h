@@ -11,7 +11,7 @@
 namespace hgrid {
 
 /// Lets kernels write places of boxes. The first places are stored in this object, all of them in a vector if there are
-/// more.
+/// more. On one thread, only one writer without a vector of its own may be in use at a time.
 class PositionWriter {
  public:
   /// Uses a vector that the thread keeps, so only the first few queries allocate.
@@ -67,21 +67,20 @@ inline bool overlap(const kernels::Box& a, const kernels::Box& b) {
 /// empty space.
 /// @param search_tree  called as bool search_tree(const kernels::BoxTree&, kernels::PositionSink*); writes slots.
 ///                     Returns false if the levels must be searched instead
-/// @param may_have  called as bool may_have(const Occupancy&); says whether a layer needs a search of its levels
-/// @param search_levels  called as void search_levels(const kernels::LevelSet&, kernels::PositionSink*); writes the
-///                       positions of the boxes that it finds
-template <class Engine, class SearchTree, class MayHave, class SearchLevels, class Visit>
+/// @param search_layer  called as void search_layer(const Layer&, kernels::PositionSink*); searches the levels and
+///                      writes positions
+template <class Engine, class SearchTree, class SearchLayer, class Visit>
 inline __attribute__((always_inline)) void visitFound(const Engine& engine, SearchTree&& search_tree,
-                                                      MayHave&& may_have, SearchLevels&& search_levels, Visit&& visit) {
+                                                      SearchLayer&& search_layer, Visit&& visit) {
   for (std::size_t number = 0; number < engine.layers.size(); ++number) {
     const Layer& layer = engine.layers[number];
     if (layer.size() == 0) continue;
     PositionWriter writer;
-    if (const QueryTree* const tree = engine.treeOf(number);
-        tree != nullptr && search_tree(tree->view(), writer.sink())) {
+    const QueryTree* const tree = engine.treeOf(number);
+    if (tree != nullptr && search_tree(tree->view(), writer.sink())) {
       if (writer.size() != 0) visit(*tree, writer);
-    } else if (may_have(layer.occupancy())) {
-      search_levels(layer.querySet(), writer.sink());
+    } else {
+      search_layer(layer, writer.sink());
       if (writer.size() != 0) visit(layer, writer);
     }
   }
@@ -96,9 +95,9 @@ void visitOverlapping(const Engine& engine, const kernels::Box& box, Visit&& vis
         engine.loops->overlappingInTree(&tree, &box, sink);
         return true;
       },
-      [&](const Occupancy& occupancy) { return occupancy.mayOverlap(box); },
-      [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) {
-        engine.loops->overlapping(&levels, &box, sink);
+      [&](const Layer& layer, kernels::PositionSink* sink) {
+        const kernels::LevelSet levels = layer.querySet();
+        if (layer.occupancy().mayOverlap(box)) engine.loops->overlapping(&levels, &box, sink);
       },
       visit);
 }

@@ -248,6 +248,7 @@ std::size_t HGrid::bytes() const {
                     e.scratch.copies.capacity() * sizeof(Aabb) +
                     (e.scratch.cells.capacity() + e.scratch.counts.capacity()) * sizeof(std::uint32_t);
   for (const Layer& layer : e.layers) sum += layer.bytes();
+  const std::lock_guard<std::mutex> lock(e.tree_mutex);  // another thread may build trees
   for (const QueryTree& tree : e.trees) sum += tree.bytes();
   for (const std::vector<ProxyId>& ids : e.members) sum += ids.capacity() * sizeof(ProxyId);
   return sum;

@@ -104,8 +104,9 @@ void answer(const Engine& engine, const Sphere& query, std::vector<ProxyId>& fou
       [&](const kernels::BoxTree& tree, kernels::PositionSink* sink) {
         return engine.loops->nearInTree(&tree, query.center.data(), query.radius, sink);
       },
-      [&](const Occupancy& occupancy) { return occupancy.mayBeNear(query.center.data(), touchingDistance(query)); },
-      [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) {
+      [&](const Layer& layer, kernels::PositionSink* sink) {
+        if (!layer.occupancy().mayBeNear(query.center.data(), touchingDistance(query))) return;
+        const kernels::LevelSet levels = layer.querySet();
         const kernels::Box box = boxOf(query);
         engine.loops->overlapping(&levels, &box, sink);
       },
@@ -125,10 +126,10 @@ void answer(const Engine& engine, const Segment& query, std::vector<SegmentHit>&
       [&](const kernels::BoxTree& tree, kernels::PositionSink* sink) {
         return engine.loops->alongInTree(&tree, query.from.data(), query.to.data(), query.radius, sink);
       },
-      [&](const Occupancy& occupancy) { return occupancy.mayTouch(lineOf(query)); },
-      [&](const kernels::LevelSet& levels, kernels::PositionSink* sink) {
+      [&](const Layer& layer, kernels::PositionSink* sink) {
+        const kernels::LevelSet levels = layer.querySet();
         const kernels::Line line = lineOf(query);
-        engine.loops->along(&levels, &line, sink);
+        if (layer.occupancy().mayTouch(line)) engine.loops->along(&levels, &line, sink);
       },
       [&](const auto& boxes, const PositionWriter& places) {
         const FirstTouch firstTouch(query);

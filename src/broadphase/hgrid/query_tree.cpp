@@ -19,7 +19,10 @@ constexpr std::uint32_t kLeaf = kernels::TreeBlock::kBoxes;         // largest n
 constexpr std::uint32_t kFan = kernels::TreeBlock::kBoxes;          // nodes below a node with one block
 constexpr std::uint32_t kWideFan = 2 * kernels::TreeBlock::kBoxes;  // nodes below a node with two blocks
 constexpr std::uint32_t kWide = kWideFan * kLeaf;                   // largest number of boxes below a node above leaves
-constexpr int kDepthByArea = 8;  // nodes from this depth on are divided at medians, so that the depth is bounded
+// Nodes from this depth on are divided at medians. So each has at most an eighth of the boxes above it, and 2^30 boxes
+// have at most 7 more levels until kWide boxes are left, then a node above leaves and a leaf.
+constexpr int kDepthByArea = 8;
+static_assert(kDepthByArea + 7 + 2 <= kernels::BoxTree::kMostDepth, "the depth is bounded");
 
 struct Item {
   kernels::Box box;
@@ -102,7 +105,7 @@ class Builder {
       const std::uint32_t below = build(parts[i], depth + 1);
       put(inner_[first + i / kFan], i % kFan, parts[i].bounds.box, below);
     }
-    return first << 2 | (blocks - 1) << 1;
+    return first << kernels::BoxTree::kShift | (blocks > 1 ? kernels::BoxTree::kTwoBlocks : 0u);
   }
 
  private:
@@ -122,10 +125,12 @@ class Builder {
     block.below[lane] = below;
   }
   std::uint32_t addLeaf(const Part& part) {
+    std::sort(items_.begin() + part.begin, items_.begin() + part.end,
+              [](const Item& a, const Item& b) { return a.id < b.id; });  // so that answers are nearly sorted
     kernels::TreeBlock block = blank();
     for (std::uint32_t i = part.begin; i < part.end; ++i) put(block, i - part.begin, items_[i].box, items_[i].id);
     leaves_.push_back(block);
-    return static_cast<std::uint32_t>(leaves_.size() - 1) << 2 | 1u;
+    return static_cast<std::uint32_t>(leaves_.size() - 1) << kernels::BoxTree::kShift | kernels::BoxTree::kLeaf;
   }
 
   /// Sorts the items of a part so that the centers before position `middle` are not greater than those from it on.
@@ -189,28 +194,30 @@ class Builder {
     const auto binOf = [=](const Item& item) {
       return std::min(static_cast<int>((static_cast<double>(item.center(axis)) - low) * scale), kBins - 1);
     };
-    std::array<Part, kBins> bins{};  // of each bin only `end`, as the number of its boxes, and `bounds` are used
+    struct Bin {
+      Bounds bounds;
+      std::uint32_t boxes = 0;
+      void add(const Bin& other) {
+        bounds.add(other.bounds);
+        boxes += other.boxes;
+      }
+      double cost() const { return bounds.area() * leavesFor(boxes); }
+    };
+    std::array<Bin, kBins> bins;
     for (std::uint32_t i = part.begin; i < part.end; ++i) {
-      Part& bin = bins[static_cast<std::size_t>(binOf(items_[i]))];
+      Bin& bin = bins[static_cast<std::size_t>(binOf(items_[i]))];
       bin.bounds.add(items_[i]);
-      ++bin.end;
+      ++bin.boxes;
     }
-    std::array<Part, kBins> after{};  // the bins from each bin on
-    after[kBins - 1] = bins[kBins - 1];
-    for (std::size_t i = kBins - 1; i-- > 0;) {
-      after[i] = bins[i];
-      after[i].bounds.add(after[i + 1].bounds);
-      after[i].end += after[i + 1].end;
-    }
-    Part before{}, first{}, second{};
+    std::array<Bin, kBins> after = bins;  // each bin together with those after it
+    for (std::size_t i = kBins - 1; i-- > 0;) after[i].add(after[i + 1]);
+    Bin before, first, second;
     double least = -1.0;
     int last = 0;  // the last bin of the first half
     for (std::size_t i = 0; i + 1 < kBins; ++i) {
-      before.bounds.add(bins[i].bounds);
-      before.end += bins[i].end;
-      if (before.end == 0 || after[i + 1].end == 0) continue;
-      const double cost =
-          before.bounds.area() * leavesFor(before.end) + after[i + 1].bounds.area() * leavesFor(after[i + 1].end);
+      before.add(bins[i]);
+      if (before.boxes == 0 || after[i + 1].boxes == 0) continue;
+      const double cost = before.cost() + after[i + 1].cost();
       if (least >= 0.0 && !(cost < least)) continue;
       least = cost;
       last = static_cast<int>(i);
@@ -220,10 +227,9 @@ class Builder {
     if (least < 0.0) return splitAtMedian(part);
     std::partition(items_.begin() + part.begin, items_.begin() + part.end,
                    [&](const Item& item) { return binOf(item) <= last; });
-    second.begin = part.begin + first.end;
-    second.end = part.end;
-    part = {part.begin, second.begin, first.bounds};
-    return second;
+    const std::uint32_t middle = part.begin + first.boxes, end = part.end;
+    part = {part.begin, middle, first.bounds};
+    return {middle, end, second.bounds};
   }
 
   std::vector<Item>& items_;
@@ -251,9 +257,11 @@ void QueryTree::build(const Layer& layer) {
   }
   inner_.clear();
   leaves_.clear();
-  leaves_.reserve(items.size() / kLeaf + 1);
+  leaves_.reserve(items.size() / kLeaf + items.size() / 128 + 1);
   Builder builder(items, inner_, leaves_);
   const std::uint32_t root = builder.build(builder.partOf(0, static_cast<std::uint32_t>(items.size())), 0);
+  inner_.shrink_to_fit();
+  leaves_.shrink_to_fit();
   view_ = {inner_.data(), leaves_.data(), root};
 }
 
@@ -268,8 +276,10 @@ void QueryTree::checkInvariants(const Layer& layer) const {
   const std::function<void(std::uint32_t, const std::vector<kernels::Box>&)> check =
       [&](std::uint32_t node, const std::vector<kernels::Box>& around) {
         require(around.size() < kernels::BoxTree::kMostDepth, "the depth is bounded");
-        const bool leaf = (node & 1u) != 0;
-        for (std::uint32_t block = node >> 2; block <= (node >> 2) + (node >> 1 & 1u); ++block) {
+        const bool leaf = (node & kernels::BoxTree::kLeaf) != 0;
+        const std::uint32_t first = node >> kernels::BoxTree::kShift;
+        const std::uint32_t last = first + ((node & kernels::BoxTree::kTwoBlocks) != 0 ? 1 : 0);
+        for (std::uint32_t block = first; block <= last; ++block) {
           for (std::uint32_t lane = 0; lane < kFan; ++lane) {
             const Aabb box = boxIn((leaf ? leaves_ : inner_)[block], lane);
             if (!(box.min.array() <= box.max.array()).all()) {

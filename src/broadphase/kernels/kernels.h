@@ -99,10 +99,12 @@ struct alignas(64) TreeBlock {
   std::uint32_t below[kBoxes];  ///< in inner blocks: the node that each box bounds; in leaves: the id of each box
 };
 
-/// A tree of bounding volumes (Ericson 2005, chapter 6) over boxes. Each node is one or two blocks. A node is a number:
-/// bit 0 says whether it is a leaf, bit 1 whether it has two blocks, and the other bits are the index of its first
-/// block. A leaf has one block.
+/// A tree of bounding volumes (Ericson 2005, chapter 6) over boxes. Each node is one or two blocks. Below a node with
+/// two blocks are only leaves. A leaf has one block. A node is a number: its index << kShift, plus kLeaf and kTwoBlocks
+/// where they apply. The index is that of its first block.
 struct BoxTree {
+  static constexpr std::uint32_t kLeaf = 1, kTwoBlocks = 2;
+  static constexpr int kShift = 2;
   static constexpr int kMostDepth = 20;  ///< largest number of nodes from the root to a leaf
   const TreeBlock* inner;
   const TreeBlock* leaves;

@@ -67,22 +67,22 @@ inline __attribute__((always_inline)) void searchLeaf(const BoxTree& tree, std::
 template <class Test>
 inline __attribute__((always_inline)) void searchTree(const BoxTree& tree, const Test& test,
                                                       Output<std::uint32_t>& found) {
-  std::uint32_t waiting[2 * TreeBlock::kBoxes * BoxTree::kMostDepth];  // inner nodes to visit
+  std::uint32_t waiting[TreeBlock::kBoxes * BoxTree::kMostDepth];  // inner nodes to visit
   std::uint32_t* end = waiting;
   std::uint32_t node = tree.root;
-  if ((node & 1u) != 0) return searchLeaf(tree, node >> 2, test, found);
+  if ((node & BoxTree::kLeaf) != 0) return searchLeaf(tree, node >> BoxTree::kShift, test, found);
   for (;;) {
-    const TreeBlock* block = tree.inner + (node >> 2);
-    const TreeBlock* const last = block + (node >> 1 & 1u);
+    const TreeBlock* block = tree.inner + (node >> BoxTree::kShift);
+    const TreeBlock* const last = block + ((node & BoxTree::kTwoBlocks) != 0 ? 1 : 0);
     for (; block <= last; ++block) {
       for (std::uint32_t j = 0; j < TreeBlock::kBoxes; j += Simd::kWidth) {
         for (std::uint32_t bits = test(*block, j); bits != 0; bits &= bits - 1) {
           const std::uint32_t below = block->below[j + static_cast<std::uint32_t>(__builtin_ctz(bits))];
-          if ((below & 1u) != 0) {
-            searchLeaf(tree, below >> 2, test, found);
+          if ((below & BoxTree::kLeaf) != 0) {
+            searchLeaf(tree, below >> BoxTree::kShift, test, found);
           } else {
             *end++ = below;
-            for (const float* bound : tree.inner[below >> 2].bounds) __builtin_prefetch(bound);
+            for (const float* bound : tree.inner[below >> BoxTree::kShift].bounds) __builtin_prefetch(bound);
           }
         }
       }
