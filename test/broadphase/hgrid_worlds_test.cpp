@@ -273,15 +273,6 @@ TEST(HGridWorlds, QueriesOfARowAreRightWhileSingleBoxesComeAndMove) {
   }
 }
 
-/// Returns the ids of the boxes along a segment in ascending order, because the order of two hits at almost the same
-/// place is a matter of rounding.
-std::vector<ProxyId> idsAlong(const BroadPhaseReader& tested, const Segment& segment) {
-  std::vector<ProxyId> ids;
-  for (const SegmentHit& hit : test::alongOf(tested, segment)) ids.push_back(hit.id);
-  std::sort(ids.begin(), ids.end());
-  return ids;
-}
-
 TEST(HGridWorlds, SegmentsNearTheLargestFloatMissNothing) {
   for (unsigned seed = 0; seed < 300; ++seed) {
     Random random(seed);
@@ -324,7 +315,7 @@ TEST(HGridWorlds, SegmentsThatHardlyMoveAlongAnAxisMissNothing) {
           if (random.chance(0.5)) segment.from[axis] = 0.0;
           segment.to[axis] = segment.from[axis] + random.logUniform(1e-60, 1e3) * (random.chance(0.5) ? 1.0 : -1.0);
         }
-        ASSERT_EQ(idsAlong(grid, segment), idsAlong(brute_force, segment)) << seed << ", " << name(isa);
+        ASSERT_EQ(test::idsAlong(grid, segment), test::idsAlong(brute_force, segment)) << seed << ", " << name(isa);
         if (i == 20) grid.prepareQueries();
       }
     }

@@ -27,14 +27,7 @@ using test::randomVector;
 /// The ids that queries of all kinds find, near boxes and far from them.
 using Answers = std::vector<std::vector<ProxyId>>;
 
-/// Returns the ids in ascending order: the order of two hits at almost the same place is a matter of rounding.
-std::vector<ProxyId> sortedIds(const std::vector<SegmentHit>& hits) {
-  std::vector<ProxyId> ids;
-  for (const SegmentHit& hit : hits) ids.push_back(hit.id);
-  std::sort(ids.begin(), ids.end());
-  return ids;
-}
-
+/// Asks queries of all kinds at places that depend on the seed.
 /// @param count  number of queries of each kind
 Answers answersOf(const BroadPhaseReader& tested, const std::vector<Aabb>& boxes, unsigned seed, int count = 60) {
   Answers answers;
@@ -54,7 +47,7 @@ Answers answersOf(const BroadPhaseReader& tested, const std::vector<Aabb>& boxes
     for (const Segment& segment :
          {Segment{near, far, 0.0}, Segment{corner, other, i % 2 == 0 ? 0.0 : size}, Segment{corner, along_axis, 0.0},
           Segment{along_axis, corner, 0.0}, Segment{corner, corner, 0.0}}) {
-      answers.push_back(sortedIds(test::alongOf(tested, segment)));
+      answers.push_back(test::idsAlong(tested, segment));
     }
     std::vector<NearHit> nearest;
     tested.nearest(near, 5, std::numeric_limits<double>::infinity(), nearest);
@@ -104,6 +97,10 @@ const std::vector<std::pair<const char*, std::function<Aabb(std::size_t, Random&
     {"near the largest float",
      [](std::size_t, Random& random) {
        return boxAround(randomVector(random, -1e38, 1e38), randomVector(random, 0, 1e37));
+     }},
+    {"far from the origin",
+     [](std::size_t, Random& random) {
+       return boxAround(Eigen::Vector3d(5e5, -4e6, 1e3) + randomVector(random, -50, 50), randomVector(random, 0, 1));
      }},
     {"tiny",
      [](std::size_t, Random& random) {

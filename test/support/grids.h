@@ -116,5 +116,14 @@ inline std::vector<SegmentHit> alongOf(const BroadPhaseReader& broad_phase, cons
   return found;
 }
 
+/// Returns the ids of the boxes along a segment in ascending order. The order of two hits at almost the same place is a
+/// matter of rounding, so it may differ between two broad phases.
+inline std::vector<ProxyId> idsAlong(const BroadPhaseReader& broad_phase, const Segment& segment) {
+  std::vector<ProxyId> ids;
+  for (const SegmentHit& hit : alongOf(broad_phase, segment)) ids.push_back(hit.id);
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
 }  // namespace test
 }  // namespace hgrid

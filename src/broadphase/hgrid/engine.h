@@ -174,7 +174,7 @@ struct HGrid::Engine {
   mutable SearchBuffers buffers;
 
   // Trees for queries (queries.cpp). A tree is valid if its layer has not changed since it was built.
-  /// Builds the trees of all layers that have none.
+  /// Builds a tree for each layer that has boxes but no valid tree.
   void prepareQueries() const;
   /// Returns the tree of a layer; null if there is no valid one.
   const QueryTree* treeOf(std::size_t layer) const {

@@ -83,6 +83,7 @@ class Builder {
   Builder(std::vector<Item>& items, std::vector<kernels::TreeBlock>& inner, std::vector<kernels::TreeBlock>& leaves)
       : items_(items), inner_(inner), leaves_(leaves) {}
 
+  /// Returns the range of the items begin .. end - 1, with their bounds.
   Part partOf(std::uint32_t begin, std::uint32_t end) const {
     Part part{begin, end, {}};
     for (std::uint32_t i = begin; i < end; ++i) part.bounds.add(items_[i]);
