@@ -483,12 +483,10 @@ TEST_F(MapTopics, ThatAnnounceALongMessageAndSendNothingCostOnlyAddressSpace) {
   ChildProcess silent({"/usr/bin/python3", HGRID_PROJECT_DIR "/test/node/support/silent_publisher.py",
                        node_->space() + "/octomap_binary", OctomapKind::kType, OctomapKind::kMd5},
                       output, {});
-  node_->waitUntil("the announcement", [&](const Heard&) {
-    return memoryOf(node_->process().pid()).second > before.second + 900000;  // kB
-  });
+  node_->waitUntil("the announcement", [&](const Heard&) { return hasReserved(node_->process().pid(), before); });
   node_->waitForTicks(10);
   EXPECT_EQ(metAt(0.05), Names({"map/room"}));
-  EXPECT_LT(memoryOf(node_->process().pid()).first, before.first + 4000) << "kB";
+  EXPECT_TRUE(costsOnlyAddressSpace(node_->process().pid(), before));
   send(messageOf("", nodesOfRow(5)));
   node_->waitUntil("the map of another publisher", [&](const Heard&) { return !metAt(0.45).empty(); });
 }

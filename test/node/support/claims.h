@@ -53,6 +53,22 @@ inline std::pair<std::size_t, std::size_t> memoryOf(pid_t process) {
   file >> pages >> resident;
   return {resident * 4, pages * 4};
 }
+
+/// Returns whether a process reserved virtual memory for a message of test/node/support/silent_publisher.py.
+/// `before`: its memory (memoryOf) before that.
+inline bool hasReserved(pid_t process, const std::pair<std::size_t, std::size_t>& before) {
+  return memoryOf(process).second > before.second + 900000;
+}
+
+/// Claim: of a message that is announced and never sent, less than a tenth is in the memory of a process. The bound is
+/// not closer because sanitizers keep notes about the memory of a program.
+inline ::testing::AssertionResult costsOnlyAddressSpace(pid_t process,
+                                                        const std::pair<std::size_t, std::size_t>& before) {
+  const std::size_t now = memoryOf(process).first;
+  if (now < before.first + 100000) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "resident: " << before.first << " kB before, " << now << " kB after";
+}
+
 inline std::size_t residentKilobytes(pid_t process) { return memoryOf(process).first; }
 inline std::size_t virtualKilobytes(pid_t process) { return memoryOf(process).second; }
 
