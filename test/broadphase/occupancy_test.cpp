@@ -47,17 +47,6 @@ struct Levels {
   Occupancy occupancy;
 };
 
-kernels::Line lineOf(const Segment& segment) {
-  kernels::Line line;
-  const Eigen::Vector3d step = segment.to - segment.from;
-  line.around = segment.radius + 4.0 * roundingSlack(segment.from.norm() + segment.to.norm() + segment.radius);
-  for (int axis = 0; axis < 3; ++axis) {
-    line.from[axis] = segment.from[axis];
-    line.step[axis] = step[axis];
-  }
-  return line;
-}
-
 /// Returns a random point in a world or beside it. If `aimed`, the point is in or near a level, and some coordinates
 /// are exactly those of a corner of the level.
 Eigen::Vector3d pointIn(const Levels& world, const Place& place, bool aimed, Random& random) {

@@ -175,6 +175,47 @@ TEST(QueryTree, FindsAllBoxesOfAnInfiniteQuery) {
   }
 }
 
+/// Returns a vector with components of all magnitudes up to `most`, also such that float cannot represent, and zeros.
+Eigen::Vector3d anyVector(Random& random, double most = 3e38) {
+  Eigen::Vector3d vector;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double size = random.chance(0.2) ? 0.0 : random.logUniform(1e-60, most);
+    vector[axis] = random.chance(0.5) ? -size : size;
+  }
+  return vector;
+}
+
+/// Claim: numbers of any magnitude neither lose a box nor find what is not there. Trees compute in float.
+TEST(QueryTree, ChangesNoAnswerToQueriesOfAnySize) {
+  for (const std::size_t count : {3, 30, 600}) {
+    Random random(static_cast<unsigned>(count));
+    std::vector<Aabb> boxes;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3f a = anyVector(random).cast<float>(), b = anyVector(random).cast<float>();
+      boxes.push_back({a.cwiseMin(b), a.cwiseMax(b)});
+    }
+    test::BruteForce brute_force;
+    brute_force.update(allIds(count), boxes);
+    for (const Isa isa : test::supportedIsas()) {
+      HGrid grid;
+      grid.setIsa(isa);
+      grid.update(allIds(count), boxes);
+      grid.prepareQueries();
+      for (int i = 0; i < 2000; ++i) {
+        SCOPED_TRACE(name(isa) + (", boxes: " + std::to_string(count)) + ", query " + std::to_string(i));
+        const double most = random.logUniform(1e-40, 1e39),
+                     radius = random.chance(0.3) ? 0.0 : random.logUniform(1e-42, most);
+        const Eigen::Vector3d from = anyVector(random, most);
+        const Eigen::Vector3d to = random.chance(0.3) ? from : Eigen::Vector3d(from + anyVector(random, most));
+        const Sphere sphere{from, radius};
+        ASSERT_EQ(test::foundBy(grid, sphere), test::foundBy(brute_force, sphere));
+        const Segment segment{from, to, radius};
+        ASSERT_EQ(test::idsAlong(grid, segment), test::idsAlong(brute_force, segment));
+      }
+    }
+  }
+}
+
 TEST(QueryTree, IsUsedOnlyWhileItsLayerDoesNotChange) {
   Random random(7);
   std::vector<Aabb> boxes;

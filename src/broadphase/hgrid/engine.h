@@ -180,10 +180,19 @@ struct HGrid::Engine {
   const QueryTree* treeOf(std::size_t layer) const {
     return tree_changes[layer].load(std::memory_order_acquire) == layers[layer].changes() ? &trees[layer] : nullptr;
   }
+  /// Returns the number of changes of all layers.
+  std::uint64_t changes() const {
+    return layers[kFixed].changes() + layers[kResting].changes() + layers[kMoving].changes() + layers[kLoose].changes();
+  }
+  /// Returns whether each layer that has boxes has a valid tree. Then `prepared` names these layers.
+  bool isPrepared() const { return prepared_changes.load(std::memory_order_acquire) == changes(); }
   mutable std::mutex tree_mutex;  // protects the building of trees
   mutable std::array<QueryTree, kLayers> trees;
   mutable std::array<std::atomic<std::uint64_t>, kLayers> tree_changes{};  // changes() of each layer when its tree was
                                                                            // built; 0 if it was never built
+  mutable std::array<std::uint8_t, kLayers> prepared{};                    // the layers that have boxes
+  mutable std::size_t prepared_count = 0;                                  // number of them
+  mutable std::atomic<std::uint64_t> prepared_changes{0};  // changes() when all layers had trees; 0 if never
 };
 
 }  // namespace hgrid

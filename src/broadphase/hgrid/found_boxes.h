@@ -3,53 +3,16 @@
 #pragma once
 
 #include <algorithm>
-#include <vector>
+#include <cmath>
+#include <cstddef>
 
 #include "broadphase/hgrid/layer.h"
+#include "broadphase/hgrid/position_writer.h"
 #include "broadphase/hgrid/query_tree.h"
+#include "hgrid_proximity/geometry/segment.h"
+#include "hgrid_proximity/geometry/sphere.h"
 
 namespace hgrid {
-
-/// Lets kernels write places of boxes. The first places are stored in this object, all of them in a vector if there are
-/// more. On one thread, only one writer without a vector of its own may be in use at a time.
-class PositionWriter {
- public:
-  /// Uses a vector that the thread keeps, so only the first few queries allocate.
-  PositionWriter() : PositionWriter(nullptr) {}
-  /// Uses this vector. @param buffer  must outlive the object
-  explicit PositionWriter(std::vector<std::uint32_t>& buffer) : PositionWriter(&buffer) {}
-  PositionWriter(const PositionWriter&) = delete;
-  PositionWriter& operator=(const PositionWriter&) = delete;
-
-  kernels::PositionSink* sink() { return &sink_; }
-  const std::uint32_t* begin() const { return first_; }
-  const std::uint32_t* end() const { return sink_.next; }
-  std::size_t size() const { return static_cast<std::size_t>(end() - begin()); }
-
- private:
-  static constexpr std::size_t kFew = 128;
-
-  // Does not initialize few_, because that would take as long as some queries.
-  explicit PositionWriter(std::vector<std::uint32_t>* buffer)  // NOLINT(*-member-init)
-      : buffer_(buffer), first_(few_), sink_{few_, few_ + kFew, this, grow, false} {}
-
-  static void grow(kernels::PositionSink* sink) {
-    thread_local std::vector<std::uint32_t> of_thread;
-    auto& self = *static_cast<PositionWriter*>(sink->owner);
-    std::vector<std::uint32_t>& buffer = self.buffer_ == nullptr ? of_thread : *self.buffer_;
-    const std::size_t used = self.size();
-    if (buffer.size() < 2 * used) buffer.resize(std::max<std::size_t>(2 * used, 1024));
-    if (self.first_ == self.few_) std::copy(self.few_, self.few_ + used, buffer.data());
-    self.first_ = buffer.data();
-    sink->next = buffer.data() + used;
-    sink->limit = buffer.data() + buffer.size();
-  }
-
-  std::vector<std::uint32_t>* buffer_;
-  std::uint32_t* first_;
-  kernels::PositionSink sink_;
-  std::uint32_t few_[kFew];
-};
 
 inline kernels::Box boxOf(const Aabb& box) {
   return {{box.min[0], box.min[1], box.min[2]}, {box.max[0], box.max[1], box.max[2]}};
@@ -61,45 +24,109 @@ inline bool overlap(const kernels::Box& a, const kernels::Box& b) {
   return both;
 }
 
-/// Searches each layer: its tree if there is one, else its levels. Calls visit(boxes, places) for each layer in which a
-/// search finds boxes. `boxes` is a Layer and the places are positions, or it is a QueryTree and they are slots. Both
-/// have the functions boxAt(place) and idAt(place). Inlined, because a call takes a part of the time of a query into
-/// empty space.
-/// @param search_tree  called as bool search_tree(const kernels::BoxTree&, kernels::PositionSink*); writes slots.
-///                     Returns false if the levels must be searched instead
-/// @param search_layer  called as void search_layer(const Layer&, kernels::PositionSink*); searches the levels and
-///                      writes positions
-template <class Engine, class SearchTree, class SearchLayer, class Visit>
-inline __attribute__((always_inline)) void visitFound(const Engine& engine, SearchTree&& search_tree,
-                                                      SearchLayer&& search_layer, Visit&& visit) {
+/// Returns a box that contains the sphere. The box may be slightly too large, because the found boxes are then tested
+/// against the sphere itself.
+inline kernels::Box boxOf(const Sphere& sphere) {
+  // The sum is computed beside the corners, not before them: a query into empty space takes hardly longer than this.
+  const double slack = 2.0 * roundingSlack(sphere.center.lpNorm<1>() + sphere.radius) + 1e-37;
+  kernels::Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    constexpr double kRounding = 2.5e-7;  // allows for two roundings to float
+    const double center = sphere.center[axis];
+    const auto grown = static_cast<float>((std::abs(center) + sphere.radius) * kRounding + slack);
+    box.min[axis] = static_cast<float>(center - sphere.radius) - grown;
+    box.max[axis] = static_cast<float>(center + sphere.radius) + grown;
+  }
+  return box;
+}
+
+/// Converts a segment for the kernels.
+inline kernels::Line lineOf(const Segment& segment) {
+  kernels::Line line;
+  const double reach = std::max(segment.from.cwiseAbs().maxCoeff(), segment.to.cwiseAbs().maxCoeff()) + segment.radius;
+  line.around = segment.radius + 4.0 * roundingSlack(reach);
+  for (int axis = 0; axis < 3; ++axis) {
+    line.from[axis] = segment.from[axis];
+    line.step[axis] = segment.to[axis] - segment.from[axis];
+  }
+  return line;
+}
+
+// Each searchTree() writes the slots of the boxes of a tree that may touch the query. It returns false if the numbers
+// of the query are too large for trees. Each searchLayer() searches the levels of a layer and writes positions.
+inline bool searchTree(const kernels::Kernels& loops, const kernels::BoxTree& tree, const kernels::Box& query,
+                       kernels::PositionSink* sink) {
+  loops.overlappingInTree(&tree, &query, sink);
+  return true;
+}
+inline bool searchTree(const kernels::Kernels& loops, const kernels::BoxTree& tree, const Sphere& query,
+                       kernels::PositionSink* sink) {
+  static_assert(sizeof(Sphere) == 4 * sizeof(double), "the radius follows the center");
+  return loops.nearInTree(&tree, query.center.data(), sink);
+}
+inline bool searchTree(const kernels::Kernels& loops, const kernels::BoxTree& tree, const Segment& query,
+                       kernels::PositionSink* sink) {
+  static_assert(sizeof(Segment) == 7 * sizeof(double), "the end and the radius follow the start");
+  return loops.alongInTree(&tree, query.from.data(), sink);
+}
+inline void searchLayer(const kernels::Kernels& loops, const Layer& layer, const kernels::Box& query,
+                        kernels::PositionSink* sink) {
+  const kernels::LevelSet levels = layer.querySet();
+  if (layer.occupancy().mayOverlap(query)) loops.overlapping(&levels, &query, sink);
+}
+inline void searchLayer(const kernels::Kernels& loops, const Layer& layer, const Sphere& query,
+                        kernels::PositionSink* sink) {
+  if (!layer.occupancy().mayBeNear(query.center.data(), touchingDistance(query))) return;
+  const kernels::LevelSet levels = layer.querySet();
+  const kernels::Box box = boxOf(query);
+  loops.overlapping(&levels, &box, sink);
+}
+inline void searchLayer(const kernels::Kernels& loops, const Layer& layer, const Segment& query,
+                        kernels::PositionSink* sink) {
+  const kernels::LevelSet levels = layer.querySet();
+  const kernels::Line line = lineOf(query);
+  if (layer.occupancy().mayTouch(line)) loops.along(&levels, &line, sink);
+}
+
+// The functions for queries into empty space are inlined and those for all others are not, because calls and what they
+// need would take a part of the time.
+
+/// Searches the trees of all layers, which must be valid. Returns false if the query is too large for trees.
+template <class Engine, class Query, class Visit>
+inline __attribute__((always_inline)) bool visitTrees(const Engine& engine, const Query& query, const Visit& visit) {
+  for (std::size_t i = 0; i < engine.prepared_count; ++i) {
+    const QueryTree& tree = engine.trees[engine.prepared[i]];
+    PositionWriter writer;
+    if (!searchTree(*engine.loops, tree.view(), query, writer.sink())) return false;
+    if (writer.size() != 0) visit(tree, writer);
+  }
+  return true;
+}
+
+/// Searches each layer: its tree if there is a valid one, else its levels.
+template <class Engine, class Query, class Visit>
+__attribute__((noinline)) void visitLayers(const Engine& engine, const Query& query, const Visit& visit) {
   for (std::size_t number = 0; number < engine.layers.size(); ++number) {
     const Layer& layer = engine.layers[number];
     if (layer.size() == 0) continue;
     PositionWriter writer;
     const QueryTree* const tree = engine.treeOf(number);
-    if (tree != nullptr && search_tree(tree->view(), writer.sink())) {
+    if (tree != nullptr && searchTree(*engine.loops, tree->view(), query, writer.sink())) {
       if (writer.size() != 0) visit(*tree, writer);
     } else {
-      search_layer(layer, writer.sink());
+      searchLayer(*engine.loops, layer, query, writer.sink());
       if (writer.size() != 0) visit(layer, writer);
     }
   }
 }
 
-/// Calls visit(boxes, places) for each layer in which boxes overlap `box`, see visitFound().
-template <class Engine, class Visit>
-void visitOverlapping(const Engine& engine, const kernels::Box& box, Visit&& visit) {
-  visitFound(
-      engine,
-      [&](const kernels::BoxTree& tree, kernels::PositionSink* sink) {
-        engine.loops->overlappingInTree(&tree, &box, sink);
-        return true;
-      },
-      [&](const Layer& layer, kernels::PositionSink* sink) {
-        const kernels::LevelSet levels = layer.querySet();
-        if (layer.occupancy().mayOverlap(box)) engine.loops->overlapping(&levels, &box, sink);
-      },
-      visit);
+/// Calls visit(boxes, places) for each layer in which a search finds boxes. `boxes` is a Layer and the places are
+/// positions, or it is a QueryTree and they are slots. Both have the functions boxAt(place) and idAt(place).
+/// @param query  a box, a sphere or a segment. The search may find a few boxes more than those that touch it
+template <class Engine, class Query, class Visit>
+inline __attribute__((always_inline)) void visitFound(const Engine& engine, const Query& query, const Visit& visit) {
+  if (engine.isPrepared() && visitTrees(engine, query, visit)) return;
+  visitLayers(engine, query, visit);
 }
 
 }  // namespace hgrid

@@ -57,7 +57,7 @@ bool HGrid::Engine::collectPairs(std::vector<ProxyPair>& pairs) const {
   for (ProxyId id = 0; id < layer_of.size() && !collection.isCut(); ++id) {
     if (!isStored(id) || isFixed(id)) continue;
     const std::size_t begin = pairs.size();
-    visitOverlapping(*this, boxOf(boxes[id]), [&](const auto& found, const PositionWriter& places) {
+    visitFound(*this, boxOf(boxes[id]), [&](const auto& found, const PositionWriter& places) {
       std::size_t count = pairs.size();
       pairs.resize(count + places.size());
       for (const std::uint32_t place : places) {

@@ -6,6 +6,7 @@
 
 #include "broadphase/hgrid/engine.h"
 #include "broadphase/hgrid/found_boxes.h"
+#include "broadphase/hgrid/position_writer.h"
 
 namespace hgrid {
 namespace {

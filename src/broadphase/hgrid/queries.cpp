@@ -15,7 +15,7 @@ namespace {
 /// Sorts the elements begin .. end - 1. For few elements it uses insertion sort, because std::sort is slower for them.
 /// Most answers have few elements.
 template <class Iterator, class Less>
-void sortFew(Iterator begin, Iterator end, Less less) {
+__attribute__((noinline)) void sortFew(Iterator begin, Iterator end, Less less) {
   if (end - begin > 24) return std::sort(begin, end, less);
   for (Iterator i = begin; i != end; ++i) {
     auto value = *i;
@@ -27,7 +27,7 @@ void sortFew(Iterator begin, Iterator end, Less less) {
 
 /// Sorts ids. Each id must be there only once. If there are few ids, counts for each id how many ids are smaller. This
 /// takes more steps than other methods, but it has no branches that could be mispredicted.
-void sortIds(ProxyId* ids, std::size_t count) {
+__attribute__((noinline)) void sortIds(ProxyId* ids, std::size_t count) {
   constexpr std::size_t kFew = 32;
   if (count > kFew) return std::sort(ids, ids + count);
   std::array<ProxyId, kFew> unsorted;
@@ -39,39 +39,11 @@ void sortIds(ProxyId* ids, std::size_t count) {
   }
 }
 
-/// Returns a box that contains the sphere. The box may be slightly too large, because the found boxes are then tested
-/// against the sphere itself.
-kernels::Box boxOf(const Sphere& sphere) {
-  // The sum is computed beside the corners, not before them: a query into empty space takes hardly longer than this.
-  const double slack = 2.0 * roundingSlack(sphere.center.lpNorm<1>() + sphere.radius) + 1e-37;
-  kernels::Box box;
-  for (int axis = 0; axis < 3; ++axis) {
-    constexpr double kRounding = 2.5e-7;  // allows for two roundings to float
-    const double center = sphere.center[axis];
-    const auto grown = static_cast<float>((std::abs(center) + sphere.radius) * kRounding + slack);
-    box.min[axis] = static_cast<float>(center - sphere.radius) - grown;
-    box.max[axis] = static_cast<float>(center + sphere.radius) + grown;
-  }
-  return box;
-}
-
 bool earlier(const SegmentHit& a, const SegmentHit& b) { return a.along != b.along ? a.along < b.along : a.id < b.id; }
-
-/// Converts a segment for the kernels.
-kernels::Line lineOf(const Segment& segment) {
-  kernels::Line line;
-  const double reach = std::max(segment.from.cwiseAbs().maxCoeff(), segment.to.cwiseAbs().maxCoeff()) + segment.radius;
-  line.around = segment.radius + 4.0 * roundingSlack(reach);
-  for (int axis = 0; axis < 3; ++axis) {
-    line.from[axis] = segment.from[axis];
-    line.step[axis] = segment.to[axis] - segment.from[axis];
-  }
-  return line;
-}
 
 /// Appends the ids of the found boxes that pass a test. @param boxes  see visitFound()
 template <class Boxes, class Test>
-void append(const Boxes& boxes, const PositionWriter& places, std::vector<ProxyId>& found, Test&& test) {
+inline void append(const Boxes& boxes, const PositionWriter& places, std::vector<ProxyId>& found, const Test& test) {
   std::size_t count = found.size();
   found.resize(count + places.size());
   for (const std::uint32_t place : places) {  // Store unconditionally and advance by 0 or 1: no misprediction
@@ -81,64 +53,48 @@ void append(const Boxes& boxes, const PositionWriter& places, std::vector<ProxyI
   found.resize(count);
 }
 
-/// Sorts the ids from index `begin` on.
-void sortFrom(std::size_t begin, std::vector<ProxyId>& found) {
+// Each addFound() appends those of the found boxes that touch the query. Not inlined, so that a query into empty space
+// takes less time.
+template <class Boxes>
+__attribute__((noinline)) void addFound(const Boxes& boxes, const PositionWriter& places, const kernels::Box&,
+                                        std::vector<ProxyId>& found) {
+  append(boxes, places, found, [](const Aabb&) { return true; });
+}
+template <class Boxes>
+__attribute__((noinline)) void addFound(const Boxes& boxes, const PositionWriter& places, const Sphere& query,
+                                        std::vector<ProxyId>& found) {
+  const double near = touchingDistance(query);
+  append(boxes, places, found, [&](const Aabb& box) { return squaredDistance(box, query.center) <= near * near; });
+}
+template <class Boxes>
+__attribute__((noinline)) void addFound(const Boxes& boxes, const PositionWriter& places, const Segment& query,
+                                        std::vector<SegmentHit>& found) {
+  const FirstTouch firstTouch(query);
+  for (const std::uint32_t place : places) {
+    const auto along = firstTouch(boxes.boxAt(place));
+    if (along) found.push_back({boxes.idAt(place), *along});
+  }
+}
+
+/// Sorts the answer of one query, which starts at index `begin`.
+inline void sortFrom(std::size_t begin, std::vector<ProxyId>& found) {
   if (found.size() > begin + 1) sortIds(found.data() + begin, found.size() - begin);
 }
-
-// Each answer() appends the answer of one query to `found`. Several threads may call it at the same time.
-template <class Engine>
-void answer(const Engine& engine, const Aabb& query, std::vector<ProxyId>& found) {
-  const std::size_t before = found.size();
-  visitOverlapping(engine, boxOf(query), [&](const auto& boxes, const PositionWriter& places) {
-    append(boxes, places, found, [](const Aabb&) { return true; });
-  });
-  sortFrom(before, found);
+inline void sortFrom(std::size_t begin, std::vector<SegmentHit>& found) {
+  if (found.size() > begin + 1) sortFew(found.begin() + static_cast<std::ptrdiff_t>(begin), found.end(), earlier);
 }
 
-template <class Engine>
-void answer(const Engine& engine, const Sphere& query, std::vector<ProxyId>& found) {
+/// Appends the answer of one query to `found`. Several threads may call it at the same time.
+template <class Engine, class Query, class Found>
+inline void answer(const Engine& engine, const Query& query, std::vector<Found>& found) {
   const std::size_t before = found.size();
-  visitFound(
-      engine,
-      [&](const kernels::BoxTree& tree, kernels::PositionSink* sink) {
-        return engine.loops->nearInTree(&tree, query.center.data(), query.radius, sink);
-      },
-      [&](const Layer& layer, kernels::PositionSink* sink) {
-        if (!layer.occupancy().mayBeNear(query.center.data(), touchingDistance(query))) return;
-        const kernels::LevelSet levels = layer.querySet();
-        const kernels::Box box = boxOf(query);
-        engine.loops->overlapping(&levels, &box, sink);
-      },
-      [&](const auto& boxes, const PositionWriter& places) {
-        const double near = touchingDistance(query);
-        append(boxes, places, found,
-               [&](const Aabb& box) { return squaredDistance(box, query.center) <= near * near; });
-      });
+  visitFound(engine, query,
+             [&](const auto& boxes, const PositionWriter& places) { addFound(boxes, places, query, found); });
   sortFrom(before, found);
 }
-
 template <class Engine>
-void answer(const Engine& engine, const Segment& query, std::vector<SegmentHit>& found) {
-  const std::size_t before = found.size();
-  visitFound(
-      engine,
-      [&](const kernels::BoxTree& tree, kernels::PositionSink* sink) {
-        return engine.loops->alongInTree(&tree, query.from.data(), query.to.data(), query.radius, sink);
-      },
-      [&](const Layer& layer, kernels::PositionSink* sink) {
-        const kernels::LevelSet levels = layer.querySet();
-        const kernels::Line line = lineOf(query);
-        if (layer.occupancy().mayTouch(line)) engine.loops->along(&levels, &line, sink);
-      },
-      [&](const auto& boxes, const PositionWriter& places) {
-        const FirstTouch firstTouch(query);
-        for (const std::uint32_t place : places) {
-          const auto along = firstTouch(boxes.boxAt(place));
-          if (along) found.push_back({boxes.idAt(place), *along});
-        }
-      });
-  if (found.size() > before + 1) sortFew(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(), earlier);
+inline void answer(const Engine& engine, const Aabb& query, std::vector<ProxyId>& found) {
+  answer(engine, boxOf(query), found);
 }
 
 Eigen::Vector3f positionOf(const Aabb& box) { return box.min; }
@@ -284,11 +240,17 @@ void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<
 
 void HGrid::Engine::prepareQueries() const {
   const std::lock_guard<std::mutex> lock(tree_mutex);
+  if (isPrepared()) return;
   for (std::size_t number = 0; number < layers.size(); ++number) {
     if (layers[number].size() == 0 || treeOf(number) != nullptr) continue;
     trees[number].build(layers[number]);
     tree_changes[number].store(layers[number].changes(), std::memory_order_release);
   }
+  prepared_count = 0;  // no query reads it now, because isPrepared() is false
+  for (std::size_t number = 0; number < layers.size(); ++number) {
+    if (layers[number].size() != 0) prepared[prepared_count++] = static_cast<std::uint8_t>(number);
+  }
+  prepared_changes.store(changes(), std::memory_order_release);
 }
 
 void HGrid::prepareQueries() const { engine_->prepareQueries(); }
@@ -341,7 +303,7 @@ void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limi
         if (e.isStored(id)) consider(id, e.boxes[id]);
       }
     } else {
-      visitOverlapping(e, boxOf(Sphere{point, radius}), [&](const auto& boxes, const PositionWriter& places) {
+      visitFound(e, boxOf(Sphere{point, radius}), [&](const auto& boxes, const PositionWriter& places) {
         for (const std::uint32_t place : places) consider(boxes.idAt(place), boxes.boxAt(place));
       });
     }

@@ -61,6 +61,12 @@ struct Bounds {
     for (int axis = 1; axis < 3; ++axis) longest = extent(axis) > extent(longest) ? axis : longest;
     return longest;
   }
+  /// Returns the largest magnitude of a coordinate [m].
+  float largest() const {
+    float largest = 0.0f;
+    for (int axis = 0; axis < 3; ++axis) largest = std::max({largest, -box.min[axis], box.max[axis]});
+    return largest;
+  }
   /// Returns half of the surface area [m²].
   double area() const {
     const double x = static_cast<double>(box.max[0]) - box.min[0], y = static_cast<double>(box.max[1]) - box.min[1],
@@ -260,10 +266,13 @@ void QueryTree::build(const Layer& layer) {
   leaves_.clear();
   leaves_.reserve(items.size() / kLeaf + items.size() / 128 + 1);
   Builder builder(items, inner_, leaves_);
-  const std::uint32_t root = builder.build(builder.partOf(0, static_cast<std::uint32_t>(items.size())), 0);
+  const Part all = builder.partOf(0, static_cast<std::uint32_t>(items.size()));
+  const std::uint32_t root = builder.build(all, 0);
   inner_.shrink_to_fit();
   leaves_.shrink_to_fit();
-  view_ = {inner_.data(), leaves_.data(), root};
+  // A sphere is tested with an allowance of 1e-12 of its largest coordinate (touchingDistance()). If it touches a box,
+  // this coordinate is at most the largest one of the boxes, plus its radius.
+  view_ = {inner_.data(), leaves_.data(), root, 4e-12f * all.bounds.largest() + 1e-37f};
 }
 
 void QueryTree::checkInvariants(const Layer& layer) const {

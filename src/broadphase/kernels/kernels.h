@@ -109,6 +109,7 @@ struct BoxTree {
   const TreeBlock* inner;
   const TreeBlock* leaves;
   std::uint32_t root;
+  float slack;  ///< [m] how much a query grows, so that rounding cannot lose a box
 };
 
 /// A buffer that kernels write their results to. They write at `next` and advance `next`. If fewer than 16 places are
@@ -190,11 +191,12 @@ struct Kernels {
   void (*along)(const LevelSet* set, const Line* line, PositionSink* sink);
   /// Finds the boxes of a tree that overlap `box`. Writes their slots: 16 * index of the leaf + lane.
   void (*overlappingInTree)(const BoxTree* tree, const Box* box, PositionSink* sink);
-  /// Finds all boxes of a tree within `radius` [m] of a point, and a few boxes more. Writes their slots. Returns false,
-  /// without a search, if the sum of the radius and all coordinates is 1e30 m or more.
-  bool (*nearInTree)(const BoxTree* tree, const double* center, double radius, PositionSink* sink);
-  /// Works like nearInTree() for a line between two points.
-  bool (*alongInTree)(const BoxTree* tree, const double* from, const double* to, double radius, PositionSink* sink);
+  /// Finds all boxes of a tree that touch a sphere, and a few boxes more. Writes their slots. Returns false, without a
+  /// search, if the radius is 1e30 m or more. @param sphere  [m] x, y, z, radius
+  bool (*nearInTree)(const BoxTree* tree, const double* sphere, PositionSink* sink);
+  /// Works like nearInTree() for a swept segment. Returns false if the radius exceeds about 1e12 m or a coordinate
+  /// about 1e23 m. @param segment  [m] start, end, radius: 7 numbers
+  bool (*alongInTree)(const BoxTree* tree, const double* segment, PositionSink* sink);
 };
 
 /// Returns the inner loops for an instruction set. isSupported(isa) must be true.

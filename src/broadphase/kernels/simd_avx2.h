@@ -35,9 +35,10 @@ struct SimdAvx2 : SimdSse2 {
   };
   using Id = __m256i;
 
-  static Box boxOf(const kernels::Box& box) {
-    return {{_mm256_set1_ps(box.min[0]), _mm256_set1_ps(box.min[1]), _mm256_set1_ps(box.min[2])},
-            {_mm256_set1_ps(box.max[0]), _mm256_set1_ps(box.max[1]), _mm256_set1_ps(box.max[2])}};
+  static Box boxOf(const kernels::Box& box) { return boxOf(box.min, box.max); }
+  static Box boxOf(const float* min, const float* max) {
+    return {{_mm256_set1_ps(min[0]), _mm256_set1_ps(min[1]), _mm256_set1_ps(min[2])},
+            {_mm256_set1_ps(max[0]), _mm256_set1_ps(max[1]), _mm256_set1_ps(max[2])}};
   }
   static Box boxAt(const Level& level, std::uint32_t i) {
     return {{_mm256_broadcast_ss(level.bounds + i), _mm256_broadcast_ss(level.bounds + level.stride + i),

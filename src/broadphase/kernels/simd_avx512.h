@@ -17,9 +17,10 @@ struct SimdAvx512 : SimdSse2 {
   };
   using Id = __m512i;
 
-  static Box boxOf(const kernels::Box& box) {
-    return {{_mm512_set1_ps(box.min[0]), _mm512_set1_ps(box.min[1]), _mm512_set1_ps(box.min[2])},
-            {_mm512_set1_ps(box.max[0]), _mm512_set1_ps(box.max[1]), _mm512_set1_ps(box.max[2])}};
+  static Box boxOf(const kernels::Box& box) { return boxOf(box.min, box.max); }
+  static Box boxOf(const float* min, const float* max) {
+    return {{_mm512_set1_ps(min[0]), _mm512_set1_ps(min[1]), _mm512_set1_ps(min[2])},
+            {_mm512_set1_ps(max[0]), _mm512_set1_ps(max[1]), _mm512_set1_ps(max[2])}};
   }
   static Box boxAt(const Level& level, std::uint32_t i) {
     return boxOf(

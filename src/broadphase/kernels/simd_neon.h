@@ -51,9 +51,10 @@ struct SimdNeon {
   };
   using Id = uint32x4_t;
 
-  static Box boxOf(const kernels::Box& box) {
-    return {{vld1q_dup_f32(box.min), vld1q_dup_f32(box.min + 1), vld1q_dup_f32(box.min + 2)},
-            {vld1q_dup_f32(box.max), vld1q_dup_f32(box.max + 1), vld1q_dup_f32(box.max + 2)}};
+  static Box boxOf(const kernels::Box& box) { return boxOf(box.min, box.max); }
+  static Box boxOf(const float* min, const float* max) {
+    return {{vld1q_dup_f32(min), vld1q_dup_f32(min + 1), vld1q_dup_f32(min + 2)},
+            {vld1q_dup_f32(max), vld1q_dup_f32(max + 1), vld1q_dup_f32(max + 2)}};
   }
   static Box boxAt(const Level& level, std::uint32_t i) {
     const float *const min = level.bounds + i, *const max = min + 3 * level.stride;

@@ -17,6 +17,7 @@ struct SimdPortable {
   using Id = std::uint32_t;
 
   static Box boxOf(const kernels::Box& box) { return box; }
+  static Box boxOf(const float* min, const float* max) { return {{min[0], min[1], min[2]}, {max[0], max[1], max[2]}}; }
   static Box boxAt(const Level& level, std::uint32_t i) {
     return {
         {level.bounds[i], level.bounds[level.stride + i], level.bounds[2 * level.stride + i]},

@@ -20,9 +20,10 @@ struct SimdSse2 {
   };
   using Id = std::uint32_t;
 
-  static Box boxOf(const kernels::Box& box) {
-    return {{_mm_set1_ps(box.min[0]), _mm_set1_ps(box.min[1]), _mm_set1_ps(box.min[2])},
-            {_mm_set1_ps(box.max[0]), _mm_set1_ps(box.max[1]), _mm_set1_ps(box.max[2])}};
+  static Box boxOf(const kernels::Box& box) { return boxOf(box.min, box.max); }
+  static Box boxOf(const float* min, const float* max) {
+    return {{_mm_set1_ps(min[0]), _mm_set1_ps(min[1]), _mm_set1_ps(min[2])},
+            {_mm_set1_ps(max[0]), _mm_set1_ps(max[1]), _mm_set1_ps(max[2])}};
   }
   static Box boxAt(const Level& level, std::uint32_t i) {
     return boxOf(

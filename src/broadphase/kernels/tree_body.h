@@ -6,53 +6,98 @@
 #pragma once
 
 #include "broadphase/kernels/kernels.h"
-#include "broadphase/kernels/line_filter_body.h"
 #include "broadphase/kernels/output_body.h"
 
 namespace hgrid {
 namespace kernels {
 namespace {
 
-/// The values of a line that a test by the slabs of boxes needs on one axis (Ericson 2005, 5.3.3). A line enters and
-/// leaves a slab at the fractions (face - start) * inverse - constant of its length. The constants grow the box by the
-/// radius of the line, and correct the rounding of `start`.
-///
-/// The test computes in float, so the boxes are grown further, to allow for rounding. The subtraction comes first:
-/// where a fraction is between 0 and 1, the difference is at most the length of the line on this axis plus the growth.
-/// So it is enough to grow the boxes by 1e-6 of that length and of the radius, however far the line is from the origin.
-/// Where the line moves along an axis by less than 1e-12 of the sum of its coordinates, `inverse` is that of 1e-12 of
-/// the sum. The boxes are grown by four times as much, which allows for this. So no value is NaN, and the test never
-/// rejects a box that touches the line.
-struct Slab {
-  Simd::Lanes start, inverse, enter, leave;
-  std::uint32_t entered, left;  // indices in TreeBlock::bounds of the faces that the line enters and leaves
+// Each query has two types: the numbers in memory, and a test that has copies of them in registers, one number in all
+// lanes. The functions that compute the numbers are not inlined. So the copies are made from memory, which does not use
+// the units that compute, and the numbers of all axes are computed together: compilers turn loops over four numbers
+// into vector operations. A query that ends at the root takes clearly less time then.
+
+/// A box, grown to allow for rounding. The fourth numbers are not used.
+struct BoxNumbers {
+  alignas(16) float min[4], max[4];  // [m]
 };
 
-/// @param around  [m] the radius of the line, grown
-/// @param most  [1/m] bound of the inverse
-inline Slab slabOf(double from, double to, std::uint32_t axis, float around, float most) {
-  const float start = static_cast<float>(from), step = static_cast<float>(to - from);
-  const float length = __builtin_fabsf(step), exact = 1.0f / length, size = exact < most ? exact : most;
-  const float inverse = __builtin_copysignf(size, step),
-              rest = static_cast<float>(from - static_cast<double>(start)) * inverse;
-  const float grown = (around + 1e-6f * length) * size;
-  const std::uint32_t back = inverse < 0.0f ? 3 : 0;  // added to an index, because a branch would be mispredicted
-  return {Simd::lanesOf(start), Simd::lanesOf(inverse), Simd::lanesOf(rest + grown), Simd::lanesOf(rest - grown),
-          axis + back,          axis + 3 - back};
+/// Tests boxes for overlap with a box.
+class BoxTest {
+ public:
+  using Numbers = BoxNumbers;
+  explicit BoxTest(const BoxNumbers& box) : box_(Simd::boxOf(box.min, box.max)) {}
+  /// Tests kWidth boxes of a block, from lane j on. Bit k of the result says whether the box in lane j + k passes.
+  std::uint32_t operator()(const TreeBlock& block, std::uint32_t j) const {
+    return Simd::overlaps(box_, Columns{block.bounds[0], TreeBlock::kBoxes}, j, Simd::kWidth);
+  }
+
+ private:
+  Simd::Box box_;
+};
+
+/// The numbers of a line that a test by the slabs of boxes needs (Ericson 2005, 5.3.3). A line enters and leaves a slab
+/// at the fractions (face - start) * inverse of its length, minus and plus `grown`. The fourth numbers are not used.
+///
+/// `grown` contains the radius, and allows for the rounding of the other numbers and of the test, which computes in
+/// float. The subtraction comes first: where a fraction is between 0 and 1, the difference is at most the length of the
+/// line on this axis plus the growth. So it is enough to grow the boxes by 1e-6 of that length, by 1e-6 of the radius
+/// and by the rounding error of `start`. Where the line moves by less than 1e-18 m along an axis, `inverse` is that of
+/// 1e-18 m, and the boxes are grown by four times as much. All numbers are finite. So the test never rejects a box that
+/// touches the line, and never accepts an unused lane.
+struct LineNumbers {
+  alignas(16) float start[4];                    // [m]
+  alignas(16) float inverse[4];                  // [1/m]
+  alignas(16) float grown[4];                    // fraction of the line
+  alignas(16) std::int32_t entered[4], left[4];  // indices in TreeBlock::bounds of the faces of lane 0
+};
+
+/// Tests boxes for contact with a line.
+class LineTest {
+ public:
+  using Numbers = LineNumbers;
+  explicit LineTest(const LineNumbers& line) : x_(line, 0), y_(line, 1), z_(line, 2) {}
+  /// Works like BoxTest.
+  std::uint32_t operator()(const TreeBlock& block, std::uint32_t j) const {
+    const float* bounds = block.bounds[0] + j;
+    const Simd::Lanes first = Simd::higher(Simd::higher(x_.entries(bounds), y_.entries(bounds)),
+                                           Simd::higher(z_.entries(bounds), Simd::lanesOf(0.0f)));
+    const Simd::Lanes last = Simd::lower(Simd::lower(x_.exits(bounds), y_.exits(bounds)),
+                                         Simd::lower(z_.exits(bounds), Simd::lanesOf(1.0f)));
+    return Simd::bitsOf(Simd::notGreater(first, last), Simd::kWidth);
+  }
+
+ private:
+  struct Slab {
+    Slab(const LineNumbers& line, int axis)
+        : start(Simd::lanesOf(line.start[axis])),
+          inverse(Simd::lanesOf(line.inverse[axis])),
+          grown(Simd::lanesOf(line.grown[axis])),
+          entered(line.entered[axis]),
+          left(line.left[axis]) {}
+    /// Returns the fractions at which the line enters the slabs of kWidth boxes.
+    Simd::Lanes entries(const float* bounds) const {
+      return Simd::timesMinus(Simd::minus(Simd::lanesAt(bounds + entered), start), inverse, grown);
+    }
+    /// Returns the fractions at which the line leaves the slabs of kWidth boxes.
+    Simd::Lanes exits(const float* bounds) const {
+      return Simd::timesPlus(Simd::minus(Simd::lanesAt(bounds + left), start), inverse, grown);
+    }
+    Simd::Lanes start, inverse, grown;
+    std::int32_t entered, left;
+  };
+  Slab x_, y_, z_;
+};
+
+/// Returns which boxes of a block pass: bit k is that of lane k.
+template <class Test>
+inline __attribute__((always_inline)) std::uint32_t passing(const TreeBlock& block, const Test& test) {
+  std::uint32_t bits = 0;
+  for (std::uint32_t j = 0; j < TreeBlock::kBoxes; j += Simd::kWidth) bits |= test(block, j) << j;
+  return bits;
 }
 
-/// Returns the fractions at which the line enters kWidth boxes of a block, from lane j on.
-inline Simd::Lanes entries(const Slab& slab, const TreeBlock& block, std::uint32_t j) {
-  const Simd::Lanes away = Simd::minus(Simd::lanesAt(block.bounds[slab.entered] + j), slab.start);
-  return Simd::timesMinus(away, slab.inverse, slab.enter);
-}
-/// Returns the fractions at which the line leaves kWidth boxes of a block, from lane j on.
-inline Simd::Lanes exits(const Slab& slab, const TreeBlock& block, std::uint32_t j) {
-  const Simd::Lanes away = Simd::minus(Simd::lanesAt(block.bounds[slab.left] + j), slab.start);
-  return Simd::timesMinus(away, slab.inverse, slab.leave);
-}
-
-/// Writes the slots of the boxes of a leaf that pass the test.
+/// Writes the slots of the boxes of a leaf that pass.
 template <class Test>
 inline __attribute__((always_inline)) void searchLeaf(const BoxTree& tree, std::uint32_t leaf, const Test& test,
                                                       Output<std::uint32_t>& found) {
@@ -61,91 +106,105 @@ inline __attribute__((always_inline)) void searchLeaf(const BoxTree& tree, std::
   }
 }
 
-/// Writes the slots of the boxes that pass the test.
-/// @param test  called as uint32_t test(const TreeBlock&, lane). Bit k of the result says whether the box in lane + k
-///              passes.
+/// Searches all nodes from the root on. Not inlined, see searchTree().
 template <class Test>
-inline __attribute__((always_inline)) void searchTree(const BoxTree& tree, const Test& test,
-                                                      Output<std::uint32_t>& found) {
+__attribute__((noinline)) void searchNodes(const BoxTree& tree, const typename Test::Numbers& query,
+                                           PositionSink* sink) {
+  const Test test(query);
+  Output<std::uint32_t> found(sink);
   std::uint32_t waiting[TreeBlock::kBoxes * BoxTree::kMostDepth];  // inner nodes to visit
   std::uint32_t* end = waiting;
-  std::uint32_t node = tree.root;
-  if ((node & BoxTree::kLeaf) != 0) return searchLeaf(tree, node >> BoxTree::kShift, test, found);
-  for (;;) {
-    const TreeBlock* block = tree.inner + (node >> BoxTree::kShift);
-    const TreeBlock* const last = block + ((node & BoxTree::kTwoBlocks) != 0 ? 1 : 0);
-    for (; block <= last; ++block) {
-      for (std::uint32_t j = 0; j < TreeBlock::kBoxes; j += Simd::kWidth) {
-        for (std::uint32_t bits = test(*block, j); bits != 0; bits &= bits - 1) {
-          const std::uint32_t below = block->below[j + static_cast<std::uint32_t>(__builtin_ctz(bits))];
-          if ((below & BoxTree::kLeaf) != 0) {
-            searchLeaf(tree, below >> BoxTree::kShift, test, found);
-          } else {
-            *end++ = below;
-            for (const float* bound : tree.inner[below >> BoxTree::kShift].bounds) __builtin_prefetch(bound);
-          }
-        }
+  if ((tree.root & BoxTree::kLeaf) != 0) {
+    searchLeaf(tree, tree.root >> BoxTree::kShift, test, found);
+  } else {
+    *end++ = tree.root;
+  }
+  while (end != waiting) {
+    const std::uint32_t node = *--end;
+    const TreeBlock* const blocks = tree.inner + (node >> BoxTree::kShift);
+    std::uint32_t bits = passing(blocks[0], test);  // bit k is that of lane k % kBoxes of block k / kBoxes
+    if ((node & BoxTree::kTwoBlocks) != 0) bits |= passing(blocks[1], test) << TreeBlock::kBoxes;
+    for (; bits != 0; bits &= bits - 1) {
+      const auto k = static_cast<std::uint32_t>(__builtin_ctz(bits));
+      const std::uint32_t below = blocks[k / TreeBlock::kBoxes].below[k % TreeBlock::kBoxes];
+      if ((below & BoxTree::kLeaf) != 0) {
+        searchLeaf(tree, below >> BoxTree::kShift, test, found);
+      } else {
+        *end++ = below;
+        for (const float* bound : tree.inner[below >> BoxTree::kShift].bounds) __builtin_prefetch(bound);
       }
     }
-    if (end == waiting) return;
-    node = *--end;
   }
-}
-
-/// Writes the slots of the boxes that overlap `query`.
-inline __attribute__((always_inline)) void searchTree(const BoxTree& tree, const Box& box, PositionSink* sink) {
-  const Simd::Box query = Simd::boxOf(box);
-  Output<std::uint32_t> found(sink);
-  searchTree(
-      tree,
-      [query](const TreeBlock& block, std::uint32_t j) {
-        return Simd::overlaps(query, Columns{block.bounds[0], TreeBlock::kBoxes}, j, Simd::kWidth);
-      },
-      found);
   found.close();
 }
 
+/// Writes the slots of the boxes that pass. A root with one block is tested first. If none of its boxes passes, that is
+/// all, and there is no time spent on what the search of other nodes needs.
+template <class Test>
+inline __attribute__((always_inline)) void searchTree(const BoxTree& tree, const typename Test::Numbers& query,
+                                                      PositionSink* sink) {
+  const bool one_block = (tree.root & (BoxTree::kLeaf | BoxTree::kTwoBlocks)) == 0;
+  if (one_block && passing(tree.inner[tree.root >> BoxTree::kShift], Test(query)) == 0) return;
+  searchNodes<Test>(tree, query, sink);
+}
+
 void overlappingInTree(const BoxTree* tree, const Box* box, PositionSink* sink) {
-  Box finite;  // an infinite box would overlap the unused lanes of blocks
+  BoxNumbers finite;  // an infinite box would overlap the unused lanes of blocks
   for (int axis = 0; axis < 3; ++axis) {
     finite.min[axis] = box->min[axis] > -kMostFloat ? box->min[axis] : -kMostFloat;
     finite.max[axis] = box->max[axis] < kMostFloat ? box->max[axis] : kMostFloat;
   }
-  searchTree(*tree, finite, sink);
+  searchTree<BoxTest>(*tree, finite, sink);
 }
 
-bool nearInTree(const BoxTree* tree, const double* center, double radius, PositionSink* sink) {
-  constexpr float kRounding = 2.5e-7f, kLeast = 1e-37f;  // allow for the rounding to float
-  const double sum = magnitude(center[0]) + magnitude(center[1]) + magnitude(center[2]) + radius;
-  if (!(sum < 1e30)) return false;
-  const auto r = static_cast<float>(radius + 4e-12 * sum);
-  const auto x = static_cast<float>(center[0]), y = static_cast<float>(center[1]), z = static_cast<float>(center[2]);
-  const float rx = r + ((__builtin_fabsf(x) + r) * kRounding + kLeast),
-              ry = r + ((__builtin_fabsf(y) + r) * kRounding + kLeast),
-              rz = r + ((__builtin_fabsf(z) + r) * kRounding + kLeast);
-  searchTree(*tree, {{x - rx, y - ry, z - rz}, {x + rx, y + ry, z + rz}}, sink);
+/// Computes the box around a sphere. The factors allow for the rounding to float.
+__attribute__((noinline)) void boxAround(const double* sphere, float slack, BoxNumbers* box) {
+  float numbers[4];  // the center and the radius
+  for (int i = 0; i < 4; ++i) numbers[i] = static_cast<float>(sphere[i]);
+  const float radius = 1.0000005f * numbers[3];
+  for (int i = 0; i < 4; ++i) {
+    const float grown = (2.5e-7f * __builtin_fabsf(numbers[i]) + slack) + radius;
+    box->min[i] = numbers[i] - grown;
+    box->max[i] = numbers[i] + grown;
+  }
+}
+
+bool nearInTree(const BoxTree* tree, const double* sphere, PositionSink* sink) {
+  if (!(sphere[3] < 1e30)) return false;
+  BoxNumbers box;
+  boxAround(sphere, tree->slack, &box);
+  searchTree<BoxTest>(*tree, box, sink);
   return true;
 }
 
-bool alongInTree(const BoxTree* tree, const double* from, const double* to, double radius, PositionSink* sink) {
-  double sum = radius + 1e-20;
-  for (int axis = 0; axis < 3; ++axis) sum += magnitude(from[axis]) + magnitude(to[axis]);
-  if (!(sum < 1e30)) return false;
-  const auto around = static_cast<float>(1.000001 * radius + 4e-12 * sum), most = 1e12f / static_cast<float>(sum);
-  const Slab x = slabOf(from[0], to[0], 0, around, most), y = slabOf(from[1], to[1], 1, around, most),
-             z = slabOf(from[2], to[2], 2, around, most);
-  Output<std::uint32_t> found(sink);
-  searchTree(
-      *tree,
-      [x, y, z](const TreeBlock& block, std::uint32_t j) {
-        const Simd::Lanes first = Simd::higher(Simd::higher(entries(x, block, j), entries(y, block, j)),
-                                               Simd::higher(entries(z, block, j), Simd::lanesOf(0.0f)));
-        const Simd::Lanes last = Simd::lower(Simd::lower(exits(x, block, j), exits(y, block, j)),
-                                             Simd::lower(exits(z, block, j), Simd::lanesOf(1.0f)));
-        return Simd::bitsOf(Simd::notGreater(first, last), Simd::kWidth);
-      },
-      found);
-  found.close();
+/// Computes the numbers of a line. @returns false if a number would not be finite
+__attribute__((noinline)) bool numbersOf(const double* segment, LineNumbers* line) {
+  const double *const from = segment, *const to = segment + 3;  // the fourth numbers are there, but have no meaning
+  float start[4], step[4], slack[4];                            // slack: a part of the allowance of the exact test
+  for (int i = 0; i < 4; ++i) start[i] = static_cast<float>(from[i]);
+  for (int i = 0; i < 4; ++i) step[i] = static_cast<float>(to[i] - from[i]);
+  for (int i = 0; i < 4; ++i) slack[i] = 8.2e-12f * __builtin_fabsf(start[i]) + 4.1e-12f * __builtin_fabsf(step[i]);
+  const float radius = 1.000001f * static_cast<float>(segment[6]) + 4e-18f;
+  const float around = (radius + slack[2]) + (slack[0] + slack[1]);
+  if (!(around < 1e12f)) return false;
+  for (int i = 0; i < 4; ++i) {
+    const float length = __builtin_fabsf(step[i]), exact = 1.0f / length, size = exact < 1e18f ? exact : 1e18f;
+    line->start[i] = start[i];
+    line->inverse[i] = __builtin_copysignf(size, step[i]);
+    line->grown[i] = (around + (1e-6f * length + 6.1e-8f * __builtin_fabsf(start[i]))) * size;
+  }
+  for (int i = 0; i < 4; ++i) {
+    const bool back = line->inverse[i] < 0.0f;
+    line->entered[i] = (back ? i + 3 : i) * static_cast<std::int32_t>(TreeBlock::kBoxes);
+    line->left[i] = (back ? i : i + 3) * static_cast<std::int32_t>(TreeBlock::kBoxes);
+  }
+  return true;
+}
+
+bool alongInTree(const BoxTree* tree, const double* segment, PositionSink* sink) {
+  LineNumbers line;
+  if (!numbersOf(segment, &line)) return false;
+  searchTree<LineTest>(*tree, line, sink);
   return true;
 }
 
