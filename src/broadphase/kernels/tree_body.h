@@ -131,7 +131,6 @@ __attribute__((noinline)) void searchNodes(const BoxTree& tree, const typename T
         searchLeaf(tree, below >> BoxTree::kShift, test, found);
       } else {
         *end++ = below;
-        for (const float* bound : tree.inner[below >> BoxTree::kShift].bounds) __builtin_prefetch(bound);
       }
     }
   }
