@@ -10,7 +10,7 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kMostBodies = 20000, kMostNames = 3;
+constexpr std::size_t kMostCompared = 20000, kMostNames = 3;
 
 /// Returns how many bytes must be replaced, removed or added to turn one text into the other (Levenshtein 1966).
 std::size_t editDistance(const std::string& a, const std::string& b, std::vector<std::size_t>& row) {
@@ -29,20 +29,20 @@ std::size_t editDistance(const std::string& a, const std::string& b, std::vector
 
 }  // namespace
 
-std::vector<std::string> nearestNames(const std::string& name, const BodyList& bodies) {
+std::vector<std::string> nearestNames(const std::string& name, const NameList& names) {
   const std::size_t most = std::max<std::size_t>(1, name.size() / 3);
-  if (name.empty() || name.size() > 64 || bodies.size() > kMostBodies) return {};
+  if (name.empty() || name.size() > 64 || names.size() > kMostCompared) return {};
   std::vector<std::pair<std::size_t, const std::string*>> near;
   std::vector<std::size_t> row;
-  for (const Body& body : bodies) {
-    const std::string local = body.name.substr(body.name.find('/') + 1);
-    for (const std::string* candidate : {&body.name, &local}) {
+  for (const std::string* whole : names) {
+    const std::string local = whole->substr(whole->find('/') + 1);
+    for (const std::string* candidate : {whole, &local}) {
       const std::size_t lengths_apart =
           std::max(candidate->size(), name.size()) - std::min(candidate->size(), name.size());
       if (lengths_apart > most) continue;
       const std::size_t apart = editDistance(name, *candidate, row);
       if (apart > most) continue;
-      near.emplace_back(apart, &body.name);
+      near.emplace_back(apart, whole);
       break;
     }
   }
@@ -50,17 +50,24 @@ std::vector<std::string> nearestNames(const std::string& name, const BodyList& b
   std::partial_sort(
       near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end(),
       [](const auto& a, const auto& b) { return a.first != b.first ? a.first < b.first : *a.second < *b.second; });
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < count; ++i) names.push_back(*near[i].second);
-  return names;
+  std::vector<std::string> nearest;
+  for (std::size_t i = 0; i < count; ++i) nearest.push_back(*near[i].second);
+  return nearest;
 }
 
-std::string similarNames(const std::string& name, const BodyList& bodies) {
+std::string similarNames(const std::string& name, const NameList& names) {
   std::string listed;
-  for (const std::string& near : nearestNames(name, bodies)) {
+  for (const std::string& near : nearestNames(name, names)) {
     listed += (listed.empty() ? "; similar names are '" : ", '") + near + "'";
   }
   return listed;
+}
+
+std::string similarNames(const std::string& name, const BodyList& bodies) {
+  NameList names;
+  names.reserve(bodies.size());
+  for (const Body& body : bodies) names.push_back(&body.name);
+  return similarNames(name, names);
 }
 
 std::string noSuchBody(const std::string& name, const BodyList& bodies) {

@@ -9,13 +9,17 @@
 
 namespace hgrid {
 
-/// Returns the names of up to three bodies that are most similar to `name`, the most similar first.
+/// Pointers to names, in any order. A name is "source/local".
+using NameList = std::vector<const std::string*>;
+
+/// Returns up to three of the names that are most similar to `name`, the most similar first.
 ///
-/// A body is similar if few bytes of its whole name, or of the part after the source, must be replaced, removed or
-/// added to get `name`. The list is empty if no name is similar, or if there are too many bodies to compare all names.
-std::vector<std::string> nearestNames(const std::string& name, const BodyList& bodies);
+/// A name is similar if few bytes of all of it, or of the part after the source, must be replaced, removed or added to
+/// get `name`. The result is empty if no name is similar, or if there are too many names to compare all of them.
+std::vector<std::string> nearestNames(const std::string& name, const NameList& names);
 
 /// Returns the end of an error sentence: "; similar names are 'robot/gripper'". Empty if no name is similar.
+std::string similarNames(const std::string& name, const NameList& names);
 std::string similarNames(const std::string& name, const BodyList& bodies);
 
 /// Returns the error sentence for a name that no body has. It lists similar names.

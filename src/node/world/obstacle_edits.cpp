@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bodies/nearest_names.h"
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/refusal.h"
 
@@ -75,10 +76,11 @@ const PlacedObstacle* ObstacleEditor::find(const std::string& name) const {
 
 const PlacedObstacle& ObstacleEditor::known(const std::string& name) const {
   const PlacedObstacle* found = find(name);
-  if (found == nullptr)
-    throw Refusal(Code::unknown_id,
-                  "there is no '" + printable(name) + "'; only an existing obstacle can be changed (see ~bodies)");
-  return *found;
+  if (found != nullptr) return *found;
+  NameList names;
+  for (const auto& entry : present_) names.push_back(&entry.first);
+  throw Refusal(Code::unknown_id, "there is no '" + printable(name) + "'; only an existing obstacle can be changed" +
+                                      similarNames(name, names) + " (see ~bodies)");
 }
 
 /// Returns the obstacle that a change adds, or the present one if it is equal.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "bodies/nearest_names.h"
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/pairs/pair_rule.h"
 #include "hgrid_proximity/refusal.h"
@@ -53,6 +54,16 @@ void checkPlace(const PlacedObstacle& obstacle, const Surroundings& around) {
               "the pose of '" + printable(obstacle.what->body.name) + "'");
 }
 
+/// Returns the end of a sentence about a link that no robot has, see similarNames().
+std::string similarLinks(const std::string& link, const RobotEntries& robots) {
+  NameList names;
+  for (const auto& robot : robots) {
+    if (!robot.second.inWorld()) continue;
+    for (const auto& known : robot.second.model->links) names.push_back(&known.first);
+  }
+  return similarNames(link, names);
+}
+
 /// Returns the full name of the link that an obstacle is attached to. @throws Refusal unknown_id, conflict
 std::string linkOf(const Attachment& attachment, const std::string& what, const RobotEntries& robots) {
   if (findLink(robots, attachment.link) != nullptr) return attachment.link;
@@ -62,7 +73,8 @@ std::string linkOf(const Attachment& attachment, const std::string& what, const 
   if (links.empty()) {
     throw Refusal(Code::unknown_id, what +
                                         ": no robot in the world has this link; give the name of the robot and of "
-                                        "its link, as in robot/tool0");
+                                        "its link, as in robot/tool0" +
+                                        similarLinks(attachment.link, robots));
   }
   throw Refusal(Code::conflict, what + ": " + std::to_string(links.size()) +
                                     " robots have a link of this name, as in '" + printable(links[0]) + "' and '" +

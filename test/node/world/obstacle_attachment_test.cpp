@@ -4,6 +4,7 @@
 // Obstacles that are attached to links of a robot. The tests need no ROS master.
 #include "hgrid_proximity/pairs/rule_book.h"
 #include "test/node/world/obstacle_world.h"
+#include "test/support/refusals.h"
 
 namespace hgrid {
 namespace test {
@@ -115,6 +116,16 @@ TEST_F(Obstacles, RefuseInvalidAttachments) {
   EXPECT_THROW(apply({many}), Refusal) << "more than ~max_rules";
   EXPECT_EQ(placesIn(tick()).size(), 3u);
   EXPECT_TRUE(mayTouch(*tick_->snapshot, "obstacle/part", "arm/hand"));
+}
+
+TEST_F(Obstacles, AndLinksThatDoNotExistAreRefusedWithSimilarNames) {
+  apply({adding("part", 1), adding("lid", 2)});
+  tick();
+  std::string sentence;
+  EXPECT_EQ(refusalOf([&] { apply({removing("prat")}); }, &sentence), Code::unknown_id);
+  EXPECT_TRUE(says(sentence, "similar names are 'obstacle/part'"));
+  EXPECT_EQ(refusalOf([&] { apply({attaching("lid", "arm/hnad")}); }, &sentence), Code::unknown_id);
+  EXPECT_TRUE(says(sentence, "similar names are 'arm/hand'"));
 }
 
 TEST_F(Obstacles, LeaveTheRulesOfTheUserAsTheyAre) {
