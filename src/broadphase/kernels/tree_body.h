@@ -26,6 +26,7 @@ struct BoxNumbers {
 class BoxTest {
  public:
   using Numbers = BoxNumbers;
+  static constexpr bool kVisitsManyNodes = false;  // usually one after the other, so prefetching them takes only time
   explicit BoxTest(const BoxNumbers& box) : box_(Simd::boxOf(box.min, box.max)) {}
   /// Tests kWidth boxes of a block, from lane j on. Bit k of the result says whether the box in lane j + k passes.
   std::uint32_t operator()(const TreeBlock& block, std::uint32_t j) const {
@@ -56,6 +57,7 @@ struct LineNumbers {
 class LineTest {
  public:
   using Numbers = LineNumbers;
+  static constexpr bool kVisitsManyNodes = true;
   explicit LineTest(const LineNumbers& line) : x_(line, 0), y_(line, 1), z_(line, 2) {}
   /// Works like BoxTest.
   std::uint32_t operator()(const TreeBlock& block, std::uint32_t j) const {
@@ -131,6 +133,9 @@ __attribute__((noinline)) void searchNodes(const BoxTree& tree, const typename T
         searchLeaf(tree, below >> BoxTree::kShift, test, found);
       } else {
         *end++ = below;
+        if (Test::kVisitsManyNodes) {
+          for (const float* bound : tree.inner[below >> BoxTree::kShift].bounds) __builtin_prefetch(bound);
+        }
       }
     }
   }
