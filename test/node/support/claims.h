@@ -13,15 +13,10 @@
 
 #include "test/node/support/node_under_test.h"
 #include "test/node/support/readings.h"
+#include "test/support/refusals.h"
 
 namespace hgrid {
 namespace test {
-
-/// Succeeds if `sentence` contains `words`.
-inline ::testing::AssertionResult says(const std::string& sentence, const std::string& words) {
-  if (sentence.find(words) != std::string::npos) return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure() << "'" << sentence << "' does not contain '" << words << "'";
-}
 
 /// Succeeds if one of the sentences contains `words`.
 inline ::testing::AssertionResult oneSays(const std::vector<std::string>& sentences, const std::string& words) {
