@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace hgrid {
 
 /// Pointers to names, in any order. A name is "source/local".
 using NameList = std::vector<const std::string*>;
+
+/// So many names, even long ones, are compared in less than 1 ms. A tick may wait so long if it refuses a change.
+constexpr std::size_t kQuicklyCompared = 300;
 
 /// Returns up to three of the names that are most similar to `name`, the most similar first.
 ///

@@ -78,7 +78,9 @@ const PlacedObstacle& ObstacleEditor::known(const std::string& name) const {
   const PlacedObstacle* found = find(name);
   if (found != nullptr) return *found;
   NameList names;
-  for (const auto& entry : present_) names.push_back(&entry.first);
+  for (const auto& entry : present_) {
+    if (present_.size() <= kQuicklyCompared) names.push_back(&entry.first);
+  }
   throw Refusal(Code::unknown_id, "there is no '" + printable(name) + "'; only an existing obstacle can be changed" +
                                       similarNames(name, names) + " (see ~bodies)");
 }

@@ -54,14 +54,14 @@ void checkPlace(const PlacedObstacle& obstacle, const Surroundings& around) {
               "the pose of '" + printable(obstacle.what->body.name) + "'");
 }
 
-/// Returns the end of a sentence about a link that no robot has, see similarNames().
+/// Returns the end of a sentence about a link that no robot has, see similarNames(). Empty if there are many links.
 std::string similarLinks(const std::string& link, const RobotEntries& robots) {
   NameList names;
   for (const auto& robot : robots) {
     if (!robot.second.inWorld()) continue;
     for (const auto& known : robot.second.model->links) names.push_back(&known.first);
   }
-  return similarNames(link, names);
+  return names.size() <= kQuicklyCompared ? similarNames(link, names) : std::string();
 }
 
 /// Returns the full name of the link that an obstacle is attached to. @throws Refusal unknown_id, conflict
