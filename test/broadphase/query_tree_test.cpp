@@ -175,7 +175,8 @@ TEST(QueryTree, FindsAllBoxesOfAnInfiniteQuery) {
   }
 }
 
-/// Returns a vector with components of all magnitudes up to `most`, also such that float cannot represent, and zeros.
+/// Returns a random vector. Its components have all magnitudes up to `most`, also magnitudes that are too small or too
+/// large for float. Some are 0.
 Eigen::Vector3d anyVector(Random& random, double most = 3e38) {
   Eigen::Vector3d vector;
   for (int axis = 0; axis < 3; ++axis) {
@@ -185,7 +186,8 @@ Eigen::Vector3d anyVector(Random& random, double most = 3e38) {
   return vector;
 }
 
-/// Claim: numbers of any magnitude neither lose a box nor find what is not there. Trees compute in float.
+/// Claim: whatever the magnitudes of boxes and queries, the answers are those of brute force, although trees compute in
+/// float.
 TEST(QueryTree, ChangesNoAnswerToQueriesOfAnySize) {
   for (const std::size_t count : {3, 30, 600}) {
     Random random(static_cast<unsigned>(count));
