@@ -108,7 +108,6 @@ class Planning(unittest.TestCase):
             for step in range(steps):
                 distances = self.distances_at(begin + (end - begin) * (step + 1) / steps)
                 self.assertTrue(distances.usable)
-                self.assertEqual(distances.longest_wait, 0)
                 self.assertNotIn(MeasureStatus.NOT_MEASURED, distances.status)
                 self.assertEqual(contacts_of(distances), [])
                 seen += len(distances.status)
@@ -117,11 +116,12 @@ class Planning(unittest.TestCase):
         self.assertIn(tuple(sorted(straight.pair(0))), contacts_of(self.distances_at(contact)))
 
     def distances_at(self, state):
-        """Moves the robot to a state. Returns a message of ~distances about this state."""
+        """Moves the robot to a state. Returns a message of ~distances about this state, in which every pair was measured.
+        On a busy computer, some ticks have no time to measure all pairs."""
         since = self.drivers.set(state) + rospy.Duration(0.005)
         while True:
             distances = self.proximity.distances()
-            if distances.header.stamp > since:
+            if distances.header.stamp > since and distances.longest_wait == 0:
                 return distances
 
 
