@@ -224,6 +224,30 @@ TEST(BoxSample, EstimatesHowManyBoxesFollowABox) {
   }
 }
 
+/// Claim: the quick lower bound is hardly ever above the estimate, and it is not useless.
+TEST(BoxSample, EstimatesQuicklyHowManyBoxesFollowABoxAtLeast) {
+  const std::size_t count = 3000;
+  const std::vector<ProxyId> ids = allIds(count);
+  double bounds = 0.0, estimates = 0.0;
+  int above = 0, cases = 0;
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    Random random(seed);
+    std::vector<Aabb> boxes;
+    while (boxes.size() < count) boxes.push_back(boxAround(randomVector(random, 0, 100), {1, 1, 1}));
+    const BoxSample sample(boxes, ids.data(), count);
+    for (const double length : {1.0, 3.0, 10.0, 30.0}) {
+      const double least = sample.leastFollowers(0, length), estimate = sample.followers(0, length);
+      bounds += least;
+      estimates += estimate;
+      above += least > estimate;
+      ++cases;
+    }
+  }
+  EXPECT_LT(above, 0.02 * cases);
+  EXPECT_GT(bounds, 0.5 * estimates);
+  EXPECT_EQ(BoxSample(diagonalOfBoxes(40), ids.data(), 40).leastFollowers(0, 1e6), 0.0) << "too few for a sample";
+}
+
 TEST(BoxSample, IsTakenFromTheWholeList) {
   const std::size_t count = 500;  // less than two boxes per sampled box
   const std::vector<Aabb> boxes = diagonalOfBoxes(count);

@@ -3,6 +3,7 @@
 #include "broadphase/hgrid/box_sample.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -25,7 +26,7 @@ BoxSample::BoxSample(const std::vector<Aabb>& boxes, const ProxyId* ids, std::si
   size_ = std::min(count, kMost);
   for (std::size_t i = 0; i < size_; ++i) {
     const std::size_t begin = i * count / size_, end = (i + 1) * count / size_;
-    const Aabb& box = boxes[ids[begin + scattered(i) % (end - begin)]];
+    const Aabb& box = boxes[ids[begin + scatteredBelow(end - begin, i)]];
     corners_[i] = {box.min[0], box.min[1], box.min[2]};
   }
   boxes_per_sampled_box_ = static_cast<double>(count) / static_cast<double>(size_);
@@ -59,6 +60,21 @@ double BoxSample::followers(std::size_t axis, double length) const {
     sum += end - i - 1;
   }
   return boxes_per_sampled_box_ * static_cast<double>(sum) / static_cast<double>(size_);
+}
+
+double BoxSample::leastFollowers(std::size_t axis, double length) const {
+  constexpr std::size_t kFew = 48;
+  if (size_ < kFew) return 0.0;
+  std::array<float, kFew> values;
+  for (std::size_t i = 0; i < kFew; ++i) values[i] = corners_[i * size_ / kFew][axis];
+  const auto most = static_cast<float>(length);
+  int near = 0;  // counts two values that are near each other twice, and each value with itself
+  for (const float a : values) {
+    for (const float b : values) near += std::abs(a - b) <= most;
+  }
+  const double pairs = 0.5 * (near - static_cast<int>(kFew));
+  const double least = std::max(0.0, pairs - 3.0 * std::sqrt(pairs));  // three standard deviations below
+  return boxes_per_sampled_box_ * static_cast<double>(size_) * least / static_cast<double>(kFew * kFew);
 }
 
 bool BoxSample::isThin(std::size_t axis, const std::array<double, 3>& sides) const {

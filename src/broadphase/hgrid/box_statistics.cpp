@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "geometry/four_lanes.h"
 #include "geometry/infinity.h"
 
 namespace hgrid {
@@ -23,6 +24,18 @@ std::size_t sizeClassOf(float ratio) {
   return static_cast<std::size_t>(std::clamp((exponent + 1) / 2, 0, GridScale::kLevels));
 }
 
+/// Sums of the sides of boxes. The fourth numbers are those of a side that is 1 m long for each box.
+struct Sum {
+  Four largest{};     // [m]
+  double total[4]{};  // [m] the fourth is the number of boxes
+
+  void add(Four sides) {
+    largest = greatest(largest, sides);
+    for (int i = 0; i < 4; ++i) total[i] += static_cast<double>(sides[i]);
+  }
+  Census census() const { return {total[3], {largest[0], largest[1], largest[2]}, {total[0], total[1], total[2]}}; }
+};
+
 }  // namespace
 
 Census BoxStatistics::all() const {
@@ -36,23 +49,29 @@ BoxStatistics statisticsOf(const std::vector<Aabb>& boxes, const ProxyId* ids, s
   BoxStatistics statistics;
   statistics.boxes = count;
   statistics.finest_edge = finest_edge;
-  Census::Vector &lower = statistics.lower, &upper = statistics.upper;
-  lower.fill(kInfinity);
-  upper.fill(-kInfinity);
+  // Boxes are added to the first and to the second sums in turn. Otherwise, successive boxes, which are often of the
+  // same size, would wait for each other.
+  std::array<std::array<Sum, BoxStatistics::kSizes>, 2> sums;
+  Four lower = allFour(kFloatInfinity), upper = allFour(-kFloatInfinity);
   const auto per_edge = static_cast<float>(1.0 / finest_edge);  // exact: the edge is a power of 2
   for (std::size_t k = 0; k < count; ++k) {
     const Aabb& box = boxes[ids[k]];
-    const Eigen::Vector3f size = box.max - box.min;
-    const std::size_t number = sizeClassOf(size.maxCoeff() * per_edge);
-    Census::Vector sides;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double low = box.min[static_cast<Eigen::Index>(i)];
-      sides[i] = box.max[static_cast<Eigen::Index>(i)] - low;
-      lower[i] = std::min(lower[i], low);
-      upper[i] = std::max(upper[i], low);
+    const Four corner{box.min[0], box.min[1], box.min[2], 0.0f};
+    const Four sides = least(Four{box.max[0], box.max[1], box.max[2], 1.0f} - corner, allFour(kernels::kMostFloat));
+    lower = least(lower, corner);
+    upper = greatest(upper, corner);
+    sums[k % 2][sizeClassOf(std::max(std::max(sides[0], sides[1]), sides[2]) * per_edge)].add(sides);
+    if (shapes == Shapes::counted) {
+      statistics.shapes[shapeOf({sides[0], sides[1], sides[2]})].add(Census::Vector{sides[0], sides[1], sides[2]});
     }
-    statistics.sizes[number].add(sides);
-    if (shapes == Shapes::counted) statistics.shapes[shapeOf({size[0], size[1], size[2]})].add(sides);
+  }
+  for (std::size_t size = 0; size < BoxStatistics::kSizes; ++size) {
+    statistics.sizes[size] = sums[0][size].census();
+    statistics.sizes[size].add(sums[1][size].census());
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    statistics.lower[i] = lower[i];
+    statistics.upper[i] = upper[i];
   }
   return statistics;
 }

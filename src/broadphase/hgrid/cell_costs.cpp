@@ -81,7 +81,10 @@ Cells bestCellsOf(const Census& level, const Window& window) {
   return best;
 }
 
-Cells oneRowOf(const Census& all, const BoxSample& sample, const Window& window) {
+Cells oneRowOf(const Census& all, const BoxSample& sample, const Window& window, double most_cost) {
+  const auto costOf = [&all](double followers) {
+    return all.boxes * (kPerBoxInOneRow + kPerFollowerInOneRow * followers);
+  };
   Cells best;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Cells cells;
@@ -92,8 +95,10 @@ Cells oneRowOf(const Census& all, const BoxSample& sample, const Window& window)
     const double most = std::min(window.mostCells(all.boxes), kMostCellsOnAxis) - 1.0;
     cells.edge[axis] = std::max({all.largest[axis] / kMostCellsAlongBox, length / most, 1e-30});
     cells.count[axis] = cellsAlong(length, cells.edge[axis]);
-    cells.followers = sample.followers(axis, all.mean(axis) + 0.5 * cells.edge[axis]);
-    cells.cost = all.boxes * (kPerBoxInOneRow + kPerFollowerInOneRow * cells.followers) + kPerCell * cells.count[axis];
+    const double reach = all.mean(axis) + 0.5 * cells.edge[axis];
+    if (costOf(sample.leastFollowers(axis, reach)) > most_cost) continue;
+    cells.followers = sample.followers(axis, reach);
+    cells.cost = costOf(cells.followers) + kPerCell * cells.count[axis];
     if (cells.cost < best.cost) best = cells;
   }
   return best;

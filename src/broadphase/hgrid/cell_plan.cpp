@@ -181,7 +181,7 @@ CellPlan CellPlanner::plan(Rows rows) const {
   }
   if (layout_ == Layout::one_region && rows == Rows::any) {
     const Census all = statistics_.all();
-    const Cells one_row = oneRowOf(all, *sample_, window_);
+    const Cells one_row = oneRowOf(all, *sample_, window_, cost);
     if (one_row.cost < cost && (plan.boxes <= kFewInOneRow || sample_->isThin(one_row.axes[0], all.mean()))) {
       plan.levels = 0;
       plan.by_shape = false;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "broadphase/hgrid/box_sample.h"
@@ -19,7 +21,8 @@ constexpr std::size_t kBoxesPerSample = 4;  // of very many boxes, one of each f
 // [nats] The cost of a split: kGain, plus kGainPerSample for each sample. A split is made only if the log-likelihood
 // rises by more than its cost. For random samples of evenly spread boxes, the log-likelihood rises by less.
 constexpr double kGainPerSample = 0.25, kGain = 40.0;
-constexpr std::size_t kFewInGroup = 64;  // samples; a smaller group is split at one of fewer places
+constexpr std::size_t kWorthSplitting = 80;  // boxes; fewer take so little time in one region that no split is tried
+constexpr std::size_t kBins = 32;            // a group is split between two of so many parts of equal length
 // If a split gains less than this fraction of its cost, the samples may be spread evenly. Then further splits would be
 // tried in vain.
 constexpr double kLittleGain = 0.25;
@@ -45,6 +48,18 @@ struct CornerGroup {
   }
 };
 
+/// Returns the logarithm to base 2 of a positive, normal number. The error is below 0.001. Faster than std::log2(). The
+/// polynomial interpolates the logarithm of the significand at four Chebyshev nodes.
+double roughLog2(double number) {
+  std::uint64_t bits;
+  std::memcpy(&bits, &number, sizeof bits);
+  const auto exponent = static_cast<std::int32_t>(bits >> 52) - 1023;
+  bits = (bits & 0xfffffffffffffu) | 0x3ff0000000000000u;
+  double x;  // the significand, 1 .. 2
+  std::memcpy(&x, &bits, sizeof x);
+  return (exponent - 2.136232) + x * (3.011162 + x * (-1.026805 + x * 0.1527003));
+}
+
 /// The best split of a group, with the statistics of both parts.
 struct Split {
   std::size_t axis = 0;
@@ -61,10 +76,11 @@ class RegionTree::Division {
  public:
   Division(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count) {
     const std::size_t stride = std::max<std::size_t>(1, std::min(kBoxesPerSample, count / kFewSamples));
+    worth_splitting_ = std::max(kWorthSplitting / stride, 2 * kLeast);
     samples_.reserve(count / stride + 1);
     std::array<double, 3> sides{};
     for (std::size_t i = 0; i < count; i += stride) {
-      const Aabb& box = boxes[ids[std::min(i + scattered(samples_.size()) % stride, count - 1)]];
+      const Aabb& box = boxes[ids[std::min(i + scatteredBelow(stride, samples_.size()), count - 1)]];
       samples_.emplace_back(box.min[0], box.min[1], box.min[2], 0.0f);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         sides[axis] +=
@@ -79,9 +95,7 @@ class RegionTree::Division {
   RegionTree tree() {
     RegionTree tree;
     if (samples_.size() < 4 * kLeast) return tree;
-    CornerGroup all;
-    for (const Corner& corner : samples_) all.add(corner);
-    divide(0, samples_.size(), all, 0);
+    divide(0, samples_.size(), allSamples(), 0);
     tree.branches_.clear();
     tree.regions_.clear();
     kernels::Region space{};
@@ -100,19 +114,36 @@ class RegionTree::Division {
     double likelihood = 0.0;           // log-likelihood of the samples in this part, minus the cost of the splits
   };
 
+  /// Returns the group of all samples.
+  CornerGroup allSamples() const {
+    CornerGroup all;
+    for (const Corner& corner : samples_) all.add(corner);
+    return all;
+  }
+
   static float coordinate(const Corner& corner, std::size_t axis) { return corner[static_cast<Eigen::Index>(axis)]; }
   /// Returns how long the bounds of a group are on an axis [m].
   static double extent(const CornerGroup& group, std::size_t axis) {
     return static_cast<double>(coordinate(group.high, axis)) - coordinate(group.low, axis);
   }
 
+  /// Returns the volume [m^3] in which the boxes of a group are.
+  double volumeOf(const CornerGroup& group) const {
+    double volume = 1.0;
+    for (std::size_t i = 0; i < 3; ++i) volume *= extent(group, i) + side_[i];
+    return volume;
+  }
+
   /// Returns the log-likelihood of the corners of a group, if corners are spread evenly within the bounds of the group.
   /// A summand that is the same for all divisions is left out.
   double likelihood(const CornerGroup& group) const {
     if (group.count == 0.0) return 0.0;
-    double volume = 1.0;
-    for (std::size_t i = 0; i < 3; ++i) volume *= extent(group, i) + side_[i];
-    return group.count * std::log(group.count / volume);
+    return group.count * std::log(group.count / volumeOf(group));
+  }
+  /// Like likelihood(), but less exact and faster. The group must not be empty.
+  double roughLikelihood(const CornerGroup& group) const {
+    constexpr double kLogOf2 = 0.6931471805599453;
+    return kLogOf2 * group.count * roughLog2(group.count / volumeOf(group));
   }
 
   /// Returns the cost of a split of a group.
@@ -134,8 +165,8 @@ class RegionTree::Division {
     parts_.emplace_back();
     const double alone = likelihood(group);
     parts_[number].likelihood = alone;
-    if (end - begin < 2 * kLeast || depth >= kMostDepth || mostGain(group) <= cost(group)) return number;
-    const Split split = end - begin < kFewInGroup ? bestSplit<8>(group, begin, end) : bestSplit<32>(group, begin, end);
+    if (end - begin < worth_splitting_ || depth >= kMostDepth || mostGain(group) <= cost(group)) return number;
+    const Split split = bestSplit(group, begin, end);
     if (!split.exists) return number;
     if (split.likelihood - alone < kLittleGain * cost(group) && isEven(group, begin, end)) return number;
     const auto middle = std::partition(
@@ -154,7 +185,6 @@ class RegionTree::Division {
   }
 
   /// Returns the best split of a few. All of them are on the axis on which the group is longest, in mean box sides.
-  template <std::size_t kBins>
   Split bestSplit(const CornerGroup& group, std::size_t begin, std::size_t end) const {
     Split best;
     double longest = 0.0;
@@ -176,25 +206,25 @@ class RegionTree::Division {
     }
     std::array<CornerGroup, kBins> above;  // above[i]: the sum of the bins i .. kBins - 1
     above[kBins - 1] = bins[kBins - 1];
-    for (std::size_t i = kBins - 1; i-- > 0;) {
-      above[i] = above[i + 1];
-      above[i].add(bins[i]);
+    for (std::size_t bin = kBins - 1; bin-- > 0;) {
+      above[bin] = above[bin + 1];
+      above[bin].add(bins[bin]);
     }
     CornerGroup below;
-    for (std::size_t i = 1; i < kBins; ++i) {
-      if (bins[i - 1].count == 0.0) continue;  // the same two groups as for the split before
-      below.add(bins[i - 1]);
-      if (below.count < kLeast || above[i].count < kLeast) continue;
-      const double likelihoods = likelihood(below) + likelihood(above[i]);
+    for (std::size_t bin = 1; bin < kBins; ++bin) {
+      if (bins[bin - 1].count == 0.0) continue;  // the same two groups as for the split before
+      below.add(bins[bin - 1]);
+      if (below.count < kLeast || above[bin].count < kLeast) continue;
+      const double likelihoods = roughLikelihood(below) + roughLikelihood(above[bin]);
       if (likelihoods <= best.likelihood) continue;
       best.likelihood = likelihoods;
       // Split midway between the two groups, so that few boxes cross the split when they move.
-      const float end_below = coordinate(below.high, axis), begin_above = coordinate(above[i].low, axis);
+      const float end_below = coordinate(below.high, axis), begin_above = coordinate(above[bin].low, axis);
       const float midway = 0.5f * end_below + 0.5f * begin_above;
       best.at = midway > end_below ? midway : begin_above;
       best.exists = best.at > end_below;
       best.below = below;
-      best.above = above[i];
+      best.above = above[bin];
     }
     return best;
   }
@@ -203,9 +233,7 @@ class RegionTree::Division {
   /// most about as many cells as there are samples, and counts the samples in each cell. If the samples form groups,
   /// the cells with samples are more crowded.
   bool isEven(const CornerGroup& group, std::size_t begin, std::size_t end) {
-    double volume = 1.0;
-    for (std::size_t i = 0; i < 3; ++i) volume *= extent(group, i) + side_[i];
-    const double edge = std::cbrt(volume / group.count);
+    const double edge = std::cbrt(volumeOf(group) / group.count);
     std::array<double, 3> cells, scale;
     for (std::size_t i = 0; i < 3; ++i) {
       cells[i] = std::floor(std::clamp(extent(group, i) / edge, 1.0, group.count));
@@ -249,6 +277,7 @@ class RegionTree::Division {
   }
 
   std::vector<Corner> samples_;
+  std::size_t worth_splitting_;        // samples; smaller groups are not split
   std::array<double, 3> side_;         // [m] mean box side per axis
   std::vector<std::uint32_t> counts_;  // samples per cell, see isEven()
   std::vector<Part> parts_;            // each part is stored before the parts that it is split into

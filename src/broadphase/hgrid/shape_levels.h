@@ -32,8 +32,7 @@ struct ShapeLevels {
 std::size_t shapeOf(const std::array<float, 3>& sides);
 
 /// Plans levels for these shapes. The level of the rare shapes exists even if there is no such box yet.
-/// @returns levels with an infinite cost if more than 70 % of the boxes are long on all axes, or if the longest box of
-/// a
+/// @returns levels with an infinite cost if more than 70 % of the boxes are long on all axes, or if the longest box of a
 ///          frequent shape is more than three times as long as the mean on an axis on which the shape is long
 ShapeLevels shapeLevelsOf(const ShapeCensuses& shapes, const Window& window);
 
