@@ -83,6 +83,7 @@ set(HGRID_CORE_SOURCES
   src/narrow/convex_pair.cpp
   src/narrow/convex_solid.cpp
   src/narrow/core_narrow_phase.cpp
+  src/narrow/distance_lattice.cpp
   src/narrow/enclosure.cpp
   src/narrow/gjk.cpp
   src/narrow/inner_spheres.cpp
@@ -118,6 +119,7 @@ set(HGRID_CORE_SOURCES
   src/queries/states/edge_checker.cpp
   src/queries/states/edge_search.cpp
   src/queries/states/map_clearance.cpp
+  src/queries/states/mesh_clearance.cpp
   src/queries/states/motion_bounds.cpp
   src/queries/states/robot_shapes.cpp
   src/queries/states/sphere_cover.cpp

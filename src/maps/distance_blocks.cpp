@@ -5,18 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/near_cells.h"
+
 namespace hgrid {
 namespace {
 
 constexpr std::size_t kMostPlaces = std::size_t{1} << 20;  // a map that needs more blocks gets none
 constexpr std::uint16_t kMostSquared = 169;                // (2 * kFarthest)^2
-constexpr float kBoundRounding = 2e-6f;  // relative, and in finest edges: more than the rounding errors of a bound
-
-/// Returns the square of the gap, in half edges, between the center of a cell and another cell along an axis.
-constexpr std::uint16_t gapSquared(std::int32_t cells) {
-  const std::int32_t gap = std::max(0, 2 * (cells < 0 ? -cells : cells) - 1);
-  return static_cast<std::uint16_t>(gap * gap);
-}
 
 }  // namespace
 
@@ -176,21 +171,10 @@ const DistanceBlocks::Block* DistanceBlocks::made(std::size_t number) const {
 Four DistanceBlocks::lowerBounds(const Four (&points)[3]) const {
   if (block_counts_[0] == 0) return allFour(isKnown() ? kFarthest : 0.0f);
   std::atomic<const Block*>* const blocks = table();
-  using FourInts = std::int32_t __attribute__((vector_size(16)));
-  FourInts cells[3];
-  Four outside = allFour(0.0f), off_center = allFour(0.0f);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Four most = allFour(cell_counts_[axis] - 0.5f);
-    const Four within = least(greatest(points[axis], allFour(0.0f)), most);
-    const Four away = points[axis] - within;
-    cells[axis] = __builtin_convertvector(within, FourInts);
-    const Four off = within - (__builtin_convertvector(cells[axis], Four) + 0.5f);
-    outside += away * away;
-    off_center += off * off;
-  }
+  const NearCells cells(points, cell_counts_);
   Four squared;
   for (std::size_t lane = 0; lane < 4; ++lane) {
-    const std::int32_t x = cells[0][lane], y = cells[1][lane], z = cells[2][lane];
+    const std::int32_t x = cells.along(0)[lane], y = cells.along(1)[lane], z = cells.along(2)[lane];
     const auto number =
         static_cast<std::size_t>(((z / kEdge) * block_counts_[1] + y / kEdge) * block_counts_[0] + x / kEdge);
     const Block* block = blocks[number].load(std::memory_order_acquire);
@@ -198,10 +182,7 @@ Four DistanceBlocks::lowerBounds(const Four (&points)[3]) const {
     const auto cell = static_cast<std::size_t>((z % kEdge * kEdge + y % kEdge) * kEdge + x % kEdge);
     squared[lane] = block == nullptr ? 0.0f : static_cast<float>(block->squared[cell]);
   }
-  const Four inside = greatest(squareRoot(squared) * 0.5f - squareRoot(off_center), allFour(0.0f));
-  // The voxels are within the blocks. So for a point outside, the segment to the nearest point of the blocks and the
-  // segment from there to a voxel form an angle of at least 90 degrees.
-  return squareRoot(outside + inside * inside) * (1.0f - kBoundRounding) - kBoundRounding;
+  return cells.lowerBounds(squareRoot(squared) * 0.5f);
 }
 
 }  // namespace hgrid

@@ -55,7 +55,10 @@ Enclosed enclosedBy(const Side& outer, const Side& inner, const Pose& outer_from
   const bool inside = anyPart(inner, [&](const Vector* begin, const Vector* end) {
     const auto in_box = [&](const Vector& point) { return enclosure.boxHolds(outer_from_inner * point); };
     result.point = outer_from_inner * *begin;
-    return std::all_of(begin, end, in_box) && std::abs(enclosure.windingNumber(result.point)) >= least;
+    if (!std::all_of(begin, end, in_box)) return false;
+    const DistanceLattice* const lattice = meshOf(outer).lattice();
+    if (lattice != nullptr && lattice->isOutside(result.point)) return false;
+    return std::abs(enclosure.windingNumber(result.point)) >= least;
   });
   if (inside) result.status = enclosure.closed() ? Measure::contained : Measure::containment_unknown;
   return result;

@@ -3,10 +3,26 @@
 #include "narrow/mesh_solid.h"
 
 #include <iterator>
+#include <new>
 
 #include "narrow/inner_spheres.h"
 
 namespace hgrid {
+namespace {
+
+constexpr std::uint32_t kWorthLattice = 4000;  // measurements; they take about as long as making a lattice
+
+}  // namespace
+
+void PreparedMesh::measuredInVain() const {
+  if (!enclosure.closed() || measured_in_vain_.load(std::memory_order_relaxed) > kWorthLattice) return;
+  if (measured_in_vain_.fetch_add(1, std::memory_order_relaxed) != kWorthLattice) return;
+  try {
+    made_ = std::make_unique<const DistanceLattice>(tree.triangles());
+    lattice_.store(made_.get(), std::memory_order_release);
+  } catch (const std::bad_alloc&) {  // the mesh is measured without a lattice, as before
+  }
+}
 
 const std::vector<Sphere>& PreparedMesh::innerSpheres() const {
   std::call_once(spheres_found_, [this] {

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include "hgrid_proximity/geometry/sphere.h"
+#include "narrow/distance_lattice.h"
 #include "narrow/enclosure.h"
 #include "narrow/mesh_tree.h"
 #include "narrow/ordered_solid.h"
@@ -23,6 +26,12 @@ struct PreparedMesh {
   std::shared_ptr<const TriangleMesh> source;  // kept, so that no other mesh gets its address
   /// Returns spheres inside the mesh; any thread may call this.
   const std::vector<Sphere>& innerSpheres() const;
+  /// Returns bounds of distances from the mesh; null if it is not closed, and until they are worth their time. Any
+  /// thread may call this.
+  const DistanceLattice* lattice() const { return lattice_.load(std::memory_order_acquire); }
+  /// Reports that the mesh was measured in vain, which lattice() could have avoided. The call with which this becomes
+  /// frequent makes the lattice, while other threads go on without. Any thread may call this.
+  void measuredInVain() const;
 
   MeshTree tree;
   Enclosure enclosure;
@@ -30,6 +39,9 @@ struct PreparedMesh {
  private:
   mutable std::once_flag spheres_found_;
   mutable std::vector<Sphere> spheres_;
+  mutable std::atomic<std::uint32_t> measured_in_vain_{0};
+  mutable std::unique_ptr<const DistanceLattice> made_;
+  mutable std::atomic<const DistanceLattice*> lattice_{nullptr};  // made_, when it is complete
 };
 
 /// A mesh as a solid.
@@ -40,6 +52,8 @@ class MeshSolid final : public OrderedSolid {
   const MeshTree& tree() const { return mesh_->tree; }
   const Enclosure& enclosure() const { return mesh_->enclosure; }
   const std::vector<Sphere>& innerSpheres() const { return mesh_->innerSpheres(); }
+  const DistanceLattice* lattice() const { return mesh_->lattice(); }
+  void measuredInVain() const { mesh_->measuredInVain(); }
 
  private:
   std::shared_ptr<const PreparedMesh> mesh_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace hgrid {
 namespace test {
@@ -30,6 +31,31 @@ TriangleMesh points(Random& random, const Eigen::Vector3d& size, int count) {
 }
 
 }  // namespace
+
+TriangleMesh trayMesh(const Eigen::Vector3d& size, double wall) {
+  TriangleMesh mesh;
+  const Eigen::Vector3d half = 0.5 * size;
+  // Four rings of four corners: the lower and upper edges of the outside, then those of the inside.
+  const double rings[][2] = {{0.0, -half[2]}, {0.0, half[2]}, {wall, -half[2] + wall}, {wall, half[2]}};
+  for (const auto& [inset, z] : rings) {
+    for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+      mesh.vertices.emplace_back(x * (half[0] - inset), y * (half[1] - inset), z);
+    }
+  }
+  const auto add = [&mesh](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  add(3, 2, 1, 0);    // the bottom, seen from below
+  add(8, 9, 10, 11);  // the floor, seen from above
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t k = (i + 1) % 4;
+    add(i, k, 4 + k, 4 + i);            // a wall from outside
+    add(12 + i, 12 + k, 8 + k, 8 + i);  // and from inside
+    add(4 + i, 4 + k, 12 + k, 12 + i);  // the rim
+  }
+  return mesh;
+}
 
 TriangleMesh boxMesh(const Eigen::Vector3d& size) {
   TriangleMesh mesh;

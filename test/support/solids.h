@@ -19,6 +19,10 @@ struct Proportions {
 
 /// Returns the closed mesh of a box around the origin. All its triangles face outward (counter-clockwise).
 TriangleMesh boxMesh(const Eigen::Vector3d& size);
+
+/// Returns a closed mesh: a box without its top, open towards z, whose walls and floor are `wall` [m] thick. Its center
+/// is that of the box.
+TriangleMesh trayMesh(const Eigen::Vector3d& size, double wall);
 /// Returns the closed mesh of a sphere of radius 1 m around the origin. It has 20 triangles. Each division divides each
 /// triangle into four.
 TriangleMesh ballMesh(int divisions);

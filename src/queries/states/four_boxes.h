@@ -2,9 +2,17 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include "queries/states/robot_shapes.h"
+#include "hgrid_proximity/geometry/aabb.h"
+#include "queries/states/tilted_box.h"
 
 namespace hgrid {
+
+/// A shape in four states of the robot. The boxes are relative to the origin of the snapshot.
+struct FourShapes {
+  TiltedBox<Four> box;
+  Four min[3], max[3];  ///< [m] corners of the axis-aligned box around `box`
+  Four rounding;        ///< [m] bound of the rounding errors of the center of `box`; its half lengths contain it
+};
 
 /// Returns for each lane whether the axis-aligned boxes of two shapes are at most `by` [m] apart along each axis.
 inline unsigned overlapping(const FourShapes& a, const FourShapes& b, const Four& by) {

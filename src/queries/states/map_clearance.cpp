@@ -2,15 +2,12 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "queries/states/map_clearance.h"
 
-#include "queries/states/four_boxes.h"
+#include "queries/states/cover_clearance.h"
 
 namespace hgrid {
 namespace {
 
 constexpr float kPointRounding = 2e-6f;  // relative bound of the rounding errors of a point in the frame of the map
-
-/// Returns one bit for each lane: whether `a` is greater than `b`.
-unsigned bitsWhereGreater(const Four& a, const Four& b) { return bitsOf(reinterpret_cast<FourCounts>(a > b)); }
 
 }  // namespace
 
@@ -37,28 +34,10 @@ unsigned MapClearance::farther(const FourShapes& shape, const SphereCover& cover
     center[row] = turned(box.center, row) + shift_[row];
     size += absolute(box.center[row]) * per_edge_ + std::abs(shift_[row]);
   }
-  const Four more = reach * per_edge_ + size * kPointRounding;
-  const unsigned wholly = bitsWhereGreater(blocks_->lowerBounds(center), more + cover.whole * per_edge_) & lanes;
-  if (wholly == lanes || cover.count[0] * cover.count[1] == 1) return wholly;
-  Four steps[2][3];
-  for (std::size_t i = 0; i < 2; ++i) {
-    for (std::size_t row = 0; row < 3; ++row) {
-      steps[i][row] = turned(box.axes[cover.axis[i]], row) * cover.step[i];
-      center[row] -= steps[i][row] * (0.5f * static_cast<float>(cover.count[i] - 1));
-    }
-  }
-  const Four least = more + cover.radius * per_edge_;
-  unsigned far = lanes & ~wholly;
-  for (std::uint32_t i = 0; i < cover.count[0]; ++i) {
-    Four point[3] = {center[0], center[1], center[2]};
-    for (std::uint32_t k = 0; k < cover.count[1]; ++k) {
-      far &= bitsWhereGreater(blocks_->lowerBounds(point), least);
-      if (far == 0) return wholly;
-      for (std::size_t row = 0; row < 3; ++row) point[row] += steps[1][row];
-    }
-    for (std::size_t row = 0; row < 3; ++row) center[row] += steps[0][row];
-  }
-  return wholly | far;
+  const Four more = (reach + shape.rounding) * per_edge_ + size * kPointRounding;
+  const auto axis = [&](std::size_t i, std::size_t row) { return turned(box.axes[cover.axis[i]], row); };
+  return coverIsFarther(cover, center, axis, per_edge_, more, lanes,
+                        [this](const Four(&points)[3]) { return blocks_->lowerBounds(points); });
 }
 
 }  // namespace hgrid

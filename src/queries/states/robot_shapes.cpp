@@ -28,6 +28,9 @@ Eigen::AlignedBox3f boundsOf(const TiltedBox<float>& box) {
   return {center - reach, center + reach};
 }
 
+/// Returns the volume [m^3] of a box.
+float volume(const TiltedBox<float>& box) { return 8.0f * box.half[0] * box.half[1] * box.half[2]; }
+
 /// Returns the part of a frame's name that comes before the name of the link; empty if there is none.
 std::string prefixOf(const std::string& frame, const std::string& link) {
   if (frame.size() <= link.size() || frame.compare(frame.size() - link.size(), link.size(), link) != 0) return {};
@@ -224,7 +227,7 @@ void RobotShapes::addShapesOf(const Snapshot& snapshot, const QueryScope& scope,
       const Pose group_from_shape = own.group_from_body * shapes[i].body_from_shape;
       const TiltedBox<float> box = tiltedBoxOf(shapes[i], group_from_shape, 1e-6);
       shapes_.push_back({own.body, i, own.group, group_from_shape, &shapes[i], box, coverOf(shapes[i], box),
-                         FourSpheres(spheresInside(shapes[i], group_from_shape))});
+                         FourSpheres(spheresInside(shapes[i], group_from_shape)), MeshClearance(shapes[i])});
     }
   }
   std::stable_sort(shapes_.begin() + before, shapes_.end(),
@@ -255,7 +258,10 @@ void RobotShapes::addClusters() {
 void RobotShapes::addSelfPairs(const PairFilter& filter) {
   for (std::uint32_t i = 0; i < counting_; ++i) {
     for (std::uint32_t k = i + 1; k < shapes_.size(); ++k) {
-      if (!filter.allowed(shapes_[i].body, shapes_[k].body)) self_pairs_.push_back({i, k});
+      if (filter.allowed(shapes_[i].body, shapes_[k].body)) continue;
+      const bool second_is_larger = volume(shapes_[k].in_group) > volume(shapes_[i].in_group);
+      const bool asks_second = shapes_[k].clearance.exists() && (second_is_larger || !shapes_[i].clearance.exists());
+      self_pairs_.push_back({i, k, asks_second ? k : i});
     }
   }
 }
@@ -272,11 +278,14 @@ void RobotShapes::place(const std::vector<FourPoses>& groups, const std::uint8_t
     for (; i < shapes_.size() && shapes_[i].group == group; ++i) {
       const TiltedBox<float>& local = shapes_[i].in_group;
       FourShapes& result = placed[i];
+      float size = 0.0f;
       for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t axis = 0; axis < 3; ++axis) result.box.axes[axis][k] = pose.turned(local.axes[axis], k);
         result.box.center[k] = pose.turned(local.center, k) + pose.shift[k];
         result.box.half[k] = allFour(local.half[k]) + pose.rounding;
+        size += std::abs(local.center[k]);
       }
+      result.rounding = pose.rounding + allFour(size * (8.0f * kUnit));
       for (std::size_t k = 0; k < 3; ++k) {
         const Four reach = pose.rounding + reachAlong(result.box, k);
         result.min[k] = result.box.center[k] - reach;

@@ -8,9 +8,10 @@
 #include "hgrid_proximity/geometry/sphere.h"
 #include "hgrid_proximity/queries/query_scope.h"
 #include "hgrid_proximity/queries/state_checker.h"
+#include "queries/states/four_boxes.h"
 #include "queries/states/four_spheres.h"
+#include "queries/states/mesh_clearance.h"
 #include "queries/states/sphere_cover.h"
-#include "queries/states/tilted_box.h"
 
 namespace hgrid {
 
@@ -32,12 +33,7 @@ struct RobotShape {
   TiltedBox<float> in_group;  ///< box around the padded shape, in the frame of the group
   SphereCover cover;          ///< spheres that contain the padded shape
   FourSpheres spheres;        ///< spheres inside the padded shape, in the frame of the group
-};
-
-/// A shape in four states of the robot. The boxes are relative to the origin of the snapshot.
-struct FourShapes {
-  TiltedBox<Four> box;
-  Four min[3], max[3];  ///< [m] corners of the axis-aligned box around `box`
+  MeshClearance clearance;    ///< if the shape is a mesh: tells what is far from it
 };
 
 /// Shapes of one rigid group that are close together, so that one search of the world finds what is near any of them.
@@ -50,6 +46,7 @@ struct ShapeCluster {
 /// Two shapes of the robot that must not touch each other. They are indices into RobotShapes::shapes().
 struct SelfPair {
   std::uint32_t first, second;
+  std::uint32_t mesh;  ///< the one whose RobotShape::clearance is asked first: a mesh, and the larger one of two meshes
 };
 
 /// The shapes that move with the joints of one robot, or of several joined robots, and their pairs that the pair filter

@@ -105,6 +105,7 @@ void StateSearch::findAmong(std::size_t lane, const NearShapes* begin, const Nea
           near.with == With::self ? robot.boxOf(near.other) : world_.shapes()[near.other].box;
       const Separation<float> apart = separationOf(robot.boxOf(near.own), other, near.reach);
       if (!mayReach(apart, near.reach)) continue;
+      if (near.with == With::self && isFarFromMesh(lane, near)) continue;
       near.gap = apart.along_faces;
     }
     measure(lane, near);
@@ -128,13 +129,29 @@ void StateSearch::findSelf() {
     const unsigned lanes = overlapping(a, b, reach) & open_;
     if (lanes == 0) continue;
     const Separation<Four> apart = separationOf(a.box, b.box, reach);
+    unsigned near = 0;
     forEachLane(lanes, [&](std::size_t lane) {
-      if (!mayReach({apart.along_faces[lane], apart.along_edges[lane]}, reach[lane])) return;
+      if (mayReach({apart.along_faces[lane], apart.along_edges[lane]}, reach[lane])) near |= 1u << lane;
+    });
+    forEachLane(near & ~farFromMesh(pair, reach, near), [&](std::size_t lane) {
       consider(lane, {apart.along_faces[lane], reach[lane], With::self, pair.first, pair.second,
                       static_cast<std::uint32_t>(i)});
     });
     if (open_ == 0) return;
   }
+}
+
+/// Returns in which of four states the shapes of a pair are surely farther apart than `reach`, according to the one of
+/// them that is a mesh. @param lanes  bit i: whether the result matters for state i
+unsigned StateSearch::farFromMesh(const SelfPair& pair, const Four& reach, unsigned lanes) const {
+  if (lanes == 0) return 0;
+  const std::uint32_t other = pair.mesh == pair.first ? pair.second : pair.first;
+  return robot_.shapes()[pair.mesh].clearance.farther(scratch_.placed[pair.mesh], scratch_.placed[other],
+                                                      robot_.shapes()[other].cover, reach, lanes);
+}
+
+bool StateSearch::isFarFromMesh(std::size_t lane, const NearShapes& near) const {
+  return farFromMesh(robot_.selfPairs()[near.pair], scratch_.pair_reach[near.pair], 1u << lane) != 0;
 }
 
 void StateSearch::findInFewShapes() {
@@ -323,6 +340,8 @@ void StateSearch::measure(std::size_t lane, const NearShapes& near) {
   if (near.with == With::self) {
     const BodyShape& other = *robot_.shapes()[near.other].what;
     pair.proximity = robot.measure(near.own, other.solid.get(), robot.worldFromShape(near.other), other.padding, limit);
+    const MeshClearance& clearance = robot_.shapes()[robot_.selfPairs()[near.pair].mesh].clearance;
+    if (clearance.exists() && !isContact(pair.proximity.status)) clearance.measuredInVain();
   } else if (near.with == With::shape) {
     pair.proximity = robot.measureBody(near.own, pair.second, pair.second_shape, limit);
   } else {

@@ -127,6 +127,8 @@ class StateSearch {
 
  private:
   void findSelf();
+  unsigned farFromMesh(const SelfPair& pair, const Four& reach, unsigned lanes) const;
+  bool isFarFromMesh(std::size_t lane, const NearShapes& near) const;
   void findInFewShapes();
   void findInGrid();
   void findNearCluster(std::size_t lane, const ShapeCluster& cluster);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "test/queries/states/placed_boxes.h"
 #include "test/queries/states/state_worlds.h"
 
 namespace hgrid {
@@ -59,19 +60,6 @@ TEST(SphereCover, CoversASphereWithOneSphere) {
   EXPECT_EQ(cover.count[0] * cover.count[1], 1u);
   EXPECT_NEAR(cover.whole, 0.25, 1e-5);
   EXPECT_GE(cover.whole, 0.25);
-}
-
-/// Places one shape of a robot in four states.
-FourShapes placed(const TiltedBox<float> (&boxes)[4]) {
-  FourShapes result;
-  for (std::size_t lane = 0; lane < 4; ++lane) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t axis = 0; axis < 3; ++axis) result.box.axes[axis][k][lane] = boxes[lane].axes[axis][k];
-      result.box.center[k][lane] = boxes[lane].center[k];
-      result.box.half[k][lane] = boxes[lane].half[k];
-    }
-  }
-  return result;
 }
 
 TEST(MapClearance, ReportsOnlyShapesBeyondTheReach) {

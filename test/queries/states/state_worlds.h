@@ -13,9 +13,11 @@
 #include "hgrid_proximity/maps/map_cells.h"
 #include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "hgrid_proximity/queries/state_checker.h"
+#include "narrow/mesh_solid.h"
 #include "test/support/joints.h"
 #include "test/support/maps.h"
 #include "test/support/scenes.h"
+#include "test/support/solids.h"
 
 namespace hgrid {
 namespace test {
@@ -54,6 +56,8 @@ struct WorldPlan {
   double size = 0.15;  ///< [m] of these shapes
   double far = 1.2;    ///< [m] how far obstacles are from the origin along each axis
   bool attached = true, map = true, plane = true;
+  bool closed_meshes =
+      false;  ///< whether the links are closed meshes with lattices, the first one a tray around the others
   Pose world_from_root = Pose::Identity();
 };
 
@@ -70,10 +74,30 @@ inline void addShapes(RobotModel& model, Random& random, int most = 3, double si
   if (model.links[0].shapes.empty()) model.links[0].shapes.push_back(solidShape(Shape::sphere(0.05)));
 }
 
+/// Makes the lattice of a shape, if it is a closed mesh. @returns whether it has one
+inline bool makeLattice(const BodyShape& shape) {
+  const auto* mesh = dynamic_cast<const MeshSolid*>(shape.solid.get());
+  for (int i = 0; mesh != nullptr && mesh->lattice() == nullptr && i < 10000; ++i) mesh->measuredInVain();
+  return mesh != nullptr && mesh->lattice() != nullptr;
+}
+
+/// Gives each link of a robot a closed mesh with a lattice. @param size  [m] of the meshes of moving links
+inline void addClosedMeshes(RobotModel& model, Random& random, double size) {
+  for (RobotLink& link : model.links) {
+    const bool is_first = &link == &model.links.front();
+    const TriangleMesh mesh =
+        is_first ? trayMesh({1.5, 1.5, 0.8}, 0.03) : lumpMesh(random, {size, 0.6 * size, 0.5 * size});
+    link.has_collision = true;
+    link.shapes = {solidShape(meshOf(mesh), randomPose(random, 0.1), random.chance(0.2) ? 0.01 : 0.0)};
+    makeLattice(link.shapes.front());
+  }
+}
+
 inline StateWorld randomStateWorld(Random& random, const WorldPlan& plan) {
   StateWorld world;
   world.model = randomMechanism(random, plan.links, 0.25);
-  addShapes(world.model, random, plan.shapes, plan.size);
+  plan.closed_meshes ? addClosedMeshes(world.model, random, plan.size)
+                     : addShapes(world.model, random, plan.shapes, plan.size);
   LinkRules rules;
   if (plan.links > 3) rules.disabled.push_back({"link1", "link3", ""});
   world.matrix = std::make_shared<const LinkMatrix>(matrixOf(world.model, rules));

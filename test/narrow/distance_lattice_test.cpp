@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "narrow/distance_lattice.h"
+
+#include <gtest/gtest.h>
+
+#include "narrow/mesh_solid.h"
+#include "test/support/random.h"
+#include "test/support/shapes.h"
+#include "test/support/solids.h"
+#include "test/support/worlds.h"
+
+namespace hgrid {
+namespace {
+
+using namespace test;
+
+/// A closed mesh, with the exact distances of points.
+struct TestedMesh {
+  explicit TestedMesh(const TriangleMesh& mesh) : prepared(std::make_shared<const TriangleMesh>(mesh)) {
+    for (const Triangle& triangle : prepared.tree.triangles()) {
+      for (const Eigen::Vector3d& corner : triangle) box.extend(corner);
+    }
+  }
+  bool isInside(const Eigen::Vector3d& point) const {
+    return std::abs(prepared.enclosure.windingNumber(point)) >= kLeastWinding;
+  }
+  /// Returns the distance from the mesh and the space that it encloses.
+  double distanceOf(const Eigen::Vector3d& point) const {
+    const ConvexSolid solid(ConvexCore::point(), {});
+    return isInside(point) ? 0.0 : prepared.tree.gapTo(solid, Pose(Eigen::Translation3d(point)), 1e9).upper;
+  }
+  Eigen::Vector3d randomPoint(Random& random, double beyond) const {
+    const Eigen::Vector3d share = randomVector(random, -beyond, 1.0 + beyond);
+    return box.min() + share.cwiseProduct(box.sizes());
+  }
+  PreparedMesh prepared;
+  Eigen::AlignedBox3d box;
+};
+
+TriangleMesh randomClosedMesh(Random& random) {
+  const Eigen::Vector3d size = randomVector(random, 0.02, 1.0);
+  TriangleMesh mesh = random.chance(0.5) ? trayMesh(size, 0.1 * size.minCoeff()) : lumpMesh(random, size);
+  const Pose pose = randomPose(random, 2.0);
+  for (Eigen::Vector3d& vertex : mesh.vertices) vertex = pose * vertex;
+  return mesh;
+}
+
+TEST(DistanceLattice, GivesLowerBoundsThatAreNotMuchTooLow) {
+  int inside = 0, outside = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const TestedMesh mesh(randomClosedMesh(random));
+    ASSERT_TRUE(mesh.prepared.enclosure.closed());
+    const DistanceLattice lattice(mesh.prepared.tree.triangles());
+    double missing = 0.0, points = 0.0;  // [edges] sum of the differences, and number of points
+    for (int i = 0; i < 100; ++i) {
+      Eigen::Vector3d point[4];
+      Four in_edges[3];
+      for (int lane = 0; lane < 4; ++lane) {
+        point[lane] = mesh.randomPoint(random, i % 3 == 0 ? 2.0 : 0.1);
+        const Eigen::Vector3d relative = (point[lane] - lattice.corner()) / lattice.edge();
+        for (int k = 0; k < 3; ++k) in_edges[k][lane] = float(relative[k]);
+      }
+      const Four bounds = lattice.lowerBounds(in_edges);
+      for (int lane = 0; lane < 4; ++lane) {
+        const double truth = mesh.distanceOf(point[lane]) / lattice.edge();
+        ASSERT_LE(bounds[lane], truth + 1e-3) << point[lane].transpose();
+        ++(truth > 0.0 ? outside : inside);
+        if (truth == 0.0 || truth > 15.0) continue;
+        missing += truth - double{bounds[lane]};
+        ++points;
+      }
+    }
+    EXPECT_LT(missing, 2.5 * points);
+  }
+  EXPECT_GT(inside, 500);
+  EXPECT_GT(outside, 5000);
+}
+
+TEST(DistanceLattice, TellsMostPointsOutsideFromThoseInside) {
+  int outside = 0, told = 0, inside = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const TestedMesh mesh(randomClosedMesh(random));
+    const DistanceLattice lattice(mesh.prepared.tree.triangles());
+    for (int i = 0; i < 300; ++i) {
+      const Eigen::Vector3d point = mesh.randomPoint(random, 0.2);
+      const bool is_inside = mesh.isInside(point), is_told = lattice.isOutside(point);
+      ASSERT_FALSE(is_inside && is_told) << point.transpose();
+      inside += is_inside;
+      outside += !is_inside;
+      told += is_told;
+    }
+    EXPECT_FALSE(lattice.isOutside(Eigen::Vector3d::Constant(std::nan(""))));
+  }
+  EXPECT_GT(inside, 500);
+  EXPECT_GT(told, 0.8 * outside);
+}
+
+/// A closed box inside a closed box leaves no way out for the space between them, so no cell there is free.
+TEST(DistanceLattice, DoesNotTakeACavityForTheOutside) {
+  TriangleMesh mesh = boxMesh({1, 1, 1});
+  const TriangleMesh inner = boxMesh({0.8, 0.8, 0.8});
+  const auto first = std::uint32_t(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), inner.vertices.begin(), inner.vertices.end());
+  for (const auto& t : inner.triangles) mesh.triangles.push_back({first + t[0], first + t[2], first + t[1]});
+  const TestedMesh tested(mesh);
+  const DistanceLattice lattice(tested.prepared.tree.triangles());
+  EXPECT_FALSE(tested.isInside({0, 0, 0}));
+  EXPECT_FALSE(lattice.isOutside({0, 0, 0}));
+  EXPECT_TRUE(lattice.isOutside({0.6, 0, 0}));
+}
+
+TEST(DistanceLattice, IsMadeWhenAClosedMeshWasOftenMeasuredInVain) {
+  const PreparedMesh closed(std::make_shared<const TriangleMesh>(trayMesh({1, 1, 1}, 0.1)));
+  const PreparedMesh open(std::make_shared<const TriangleMesh>(without(ballMesh(1), 1)));
+  for (int i = 0; i < 100; ++i) closed.measuredInVain();
+  EXPECT_EQ(closed.lattice(), nullptr);
+  for (int i = 0; i < 10000; ++i) {
+    closed.measuredInVain();
+    open.measuredInVain();
+  }
+  EXPECT_NE(closed.lattice(), nullptr);
+  EXPECT_EQ(open.lattice(), nullptr) << "an open mesh encloses no certain space";
+}
+
+}  // namespace
+}  // namespace hgrid
