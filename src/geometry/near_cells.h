@@ -40,7 +40,8 @@ class NearCells {
   /// Returns the cells as numbers along an axis, from 0 on.
   const FourInts& along(std::size_t axis) const { return cells_[axis]; }
 
-  /// Returns lower bounds of the distances from the points to something that is within the box of cells.
+  /// Returns lower bounds of the distances from the points to something that is within the box of cells, and at least
+  /// half a cell from its border.
   /// @param from_centers  lower bounds of the distances from the centers of the cells
   Four lowerBounds(const Four& from_centers) const {
     const Four inside = greatest(from_centers - squareRoot(off_center_), allFour(0.0f));

@@ -15,15 +15,15 @@ using Vector = Eigen::Vector3d;
 
 constexpr double kMostAlong = 61.0;    // cells along the longest side of the box around the mesh
 constexpr double kGrown = 1.0 + 1e-6;  // cells are tested against triangles as if they were larger by this factor
-constexpr int kFarthestEdges = 20;     // larger distances are not told apart
+constexpr int kFarthestEdges = 20;     // [edges] larger distances are stored as this one
 constexpr float kSteps = 8.0f;         // bounds are stored in steps of edge / kSteps
 constexpr std::uint16_t kMost = 4 * kFarthestEdges * kFarthestEdges;  // [half edges^2] the largest squared distance
 
-/// Returns whether a triangle may touch the cube around the origin. Separating axis test (Ericson 2005, section 5.2.9).
-bool mayTouchCube(const Triangle& triangle, double half_edge) {
+/// Returns whether a triangle may touch a box around the origin. Separating axis test (Ericson 2005, section 5.2.9).
+bool mayTouchBox(const Triangle& triangle, const Vector& half) {
   const auto isSeparated = [&](const Vector& axis) {
     const double a = axis.dot(triangle[0]), b = axis.dot(triangle[1]), c = axis.dot(triangle[2]);
-    const double reach = half_edge * axis.lpNorm<1>();
+    const double reach = axis.cwiseAbs().dot(half);
     return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
   };
   const Vector edges[] = {triangle[1] - triangle[0], triangle[2] - triangle[1], triangle[0] - triangle[2]};
@@ -39,7 +39,7 @@ bool mayTouchCube(const Triangle& triangle, double half_edge) {
 
 }  // namespace
 
-/// The cells while the lattice is made, x first, then y, then z. The outermost cells are free.
+/// The cells while the lattice is made, x first, then y, then z. No triangle is in the outermost ones.
 class DistanceLattice::Cells {
  public:
   explicit Cells(const std::array<int, 3>& counts)
@@ -51,22 +51,13 @@ class DistanceLattice::Cells {
   void mark(const Triangle& triangle) {
     const Vector low = triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2]);
     const Vector high = triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2]);
-    std::array<int, 3> first, last;
+    Numbers first, end;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<Eigen::Index>(axis);
       first[axis] = std::clamp(static_cast<int>(std::floor(low[k] - 1e-3)), 0, counts_[axis] - 1);
-      last[axis] = std::clamp(static_cast<int>(std::floor(high[k] + 1e-3)), 0, counts_[axis] - 1);
+      end[axis] = std::clamp(static_cast<int>(std::floor(high[k] + 1e-3)), 0, counts_[axis] - 1) + 1;
     }
-    for (int z = first[2]; z <= last[2]; ++z) {
-      for (int y = first[1]; y <= last[1]; ++y) {
-        for (int x = first[0]; x <= last[0]; ++x) {
-          const Vector center(x + 0.5, y + 0.5, z + 0.5);
-          if (mayTouchCube({triangle[0] - center, triangle[1] - center, triangle[2] - center}, 0.5 * kGrown)) {
-            touched_[index(x, y, z)] = 1;
-          }
-        }
-      }
-    }
+    mark(triangle, first, end);
   }
 
   /// Returns for each cell the squared distance [half edges^2] from its center to the nearest cell that is not free.
@@ -79,19 +70,44 @@ class DistanceLattice::Cells {
   }
 
  private:
+  using Numbers = std::array<int, 3>;  // a number for each axis
+
+  /// Marks those of a box of cells that a triangle may touch. Halves the box until it is a single cell.
+  void mark(const Triangle& triangle, const Numbers& first, const Numbers& end) {
+    Vector center, half;
+    std::size_t longest = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<Eigen::Index>(axis);
+      center[k] = 0.5 * (first[axis] + end[axis]);
+      half[k] = 0.5 * kGrown * (end[axis] - first[axis]);
+      if (end[axis] - first[axis] > end[longest] - first[longest]) longest = axis;
+    }
+    if (!mayTouchBox({triangle[0] - center, triangle[1] - center, triangle[2] - center}, half)) return;
+    const int middle = (first[longest] + end[longest]) / 2;
+    if (middle == first[longest]) {
+      touched_[index(first[0], first[1], first[2])] = 1;
+      return;
+    }
+    Numbers lower_end = end, upper_first = first;
+    lower_end[longest] = upper_first[longest] = middle;
+    mark(triangle, first, lower_end);
+    mark(triangle, upper_first, end);
+  }
+
   std::size_t index(int x, int y, int z) const { return static_cast<std::size_t>(z * steps_[2] + y * steps_[1] + x); }
 
   /// Returns for each cell whether it is free. Begins with the first cell and goes from neighbor to neighbor.
   std::vector<std::uint8_t> freeCells() const {
     std::vector<std::uint8_t> free(touched_.size());
-    std::vector<std::array<int, 3>> waiting{{0, 0, 0}};
+    if (touched_[0] != 0) return free;
+    std::vector<Numbers> waiting{{0, 0, 0}};
     free[0] = 1;
     while (!waiting.empty()) {
-      const std::array<int, 3> cell = waiting.back();
+      const Numbers cell = waiting.back();
       waiting.pop_back();
       for (std::size_t axis = 0; axis < 3; ++axis) {
         for (const int step : {-1, 1}) {
-          std::array<int, 3> next = cell;
+          Numbers next = cell;
           next[axis] += step;
           if (next[axis] < 0 || next[axis] >= counts_[axis]) continue;
           const std::size_t number = index(next[0], next[1], next[2]);
@@ -125,7 +141,7 @@ class DistanceLattice::Cells {
     return result;
   }
 
-  const std::array<int, 3> counts_, steps_;  // number of cells along each axis, and distance of neighbors in a list
+  const Numbers counts_, steps_;  // number of cells along each axis, and distance of neighbors in a list
   std::vector<std::uint8_t> touched_;
 };
 
@@ -134,8 +150,9 @@ DistanceLattice::DistanceLattice(const std::vector<Triangle>& triangles) {
   for (const Triangle& triangle : triangles) {
     for (const Vector& corner : triangle) box.extend(corner);
   }
-  // Free cells are added at both ends.
-  edge_ = std::max(box.sizes().maxCoeff(), 1e-9) / kMostAlong;
+  // Corners that are far from the origin are rounded, which must be much less than an edge.
+  const double farthest = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+  edge_ = std::max({box.sizes().maxCoeff() / kMostAlong, 1e-9 * farthest, 1e-12});
   std::array<int, 3> counts;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto k = static_cast<Eigen::Index>(axis);
@@ -159,7 +176,7 @@ bool DistanceLattice::isOutside(const Vector& point) const {
   std::size_t number = 0;
   for (std::size_t axis = 3; axis-- > 0;) {
     const double at = in_edges[static_cast<Eigen::Index>(axis)], count = static_cast<double>(counts_[axis]);
-    if (!(at >= 0.0 && at < count)) return !std::isnan(at);
+    if (!(at >= 0.0 && at < count)) return !in_edges.hasNaN();
     number = number * static_cast<std::size_t>(count) + static_cast<std::size_t>(at);
   }
   return bounds_[number] > 0;

@@ -14,16 +14,17 @@ namespace hgrid {
 
 /// Tells quickly that points are far from a closed mesh and from the space that it encloses. Immutable.
 ///
-/// The box around the mesh is divided into cells, which are cubes. A cell is free if no triangle touches it and a path
+/// A box around the mesh is divided into cells, which are cubes. A cell is free if no triangle touches it and a path
 /// of such cells, face to face, leads out of the box. For each cell, there is a lower bound of the distance from its
 /// center to the nearest cell that is not free. It is computed along x, then y, then z (Felzenszwalb and Huttenlocher
 /// 2012, "Distance transforms of sampled functions"). There are at most 64^3 cells, which take one byte each.
 class DistanceLattice {
  public:
-  /// Takes some milliseconds. @param triangles  of a closed mesh, at least one
+  /// Takes some milliseconds, and longer for more than thousands of triangles. @param triangles  of a closed mesh, at
+  /// least one
   explicit DistanceLattice(const std::vector<Triangle>& triangles);
 
-  /// Returns the point [m, mesh frame] to which points are relative.
+  /// Returns the lowest corner of the first cell [m, mesh frame].
   const Eigen::Vector3d& corner() const { return corner_; }
   /// Returns the unit of lengths [m], the edge of a cell.
   double edge() const { return edge_; }

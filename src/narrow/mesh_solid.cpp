@@ -14,9 +14,9 @@ constexpr std::uint32_t kWorthLattice = 4000;  // measurements; they take about 
 
 }  // namespace
 
-void PreparedMesh::measuredInVain() const {
-  if (!enclosure.closed() || measured_in_vain_.load(std::memory_order_relaxed) > kWorthLattice) return;
-  if (measured_in_vain_.fetch_add(1, std::memory_order_relaxed) != kWorthLattice) return;
+void PreparedMesh::countApart() const {
+  if (!enclosure.closed() || apart_.load(std::memory_order_relaxed) > kWorthLattice) return;
+  if (apart_.fetch_add(1, std::memory_order_relaxed) != kWorthLattice) return;
   try {
     made_ = std::make_unique<const DistanceLattice>(tree.triangles());
     lattice_.store(made_.get(), std::memory_order_release);

@@ -26,12 +26,12 @@ struct PreparedMesh {
   std::shared_ptr<const TriangleMesh> source;  // kept, so that no other mesh gets its address
   /// Returns spheres inside the mesh; any thread may call this.
   const std::vector<Sphere>& innerSpheres() const;
-  /// Returns bounds of distances from the mesh; null if it is not closed, and until they are worth their time. Any
-  /// thread may call this.
+  /// Returns bounds of distances from the mesh; null if it is not closed, or until countApart() makes them. Any thread
+  /// may call this.
   const DistanceLattice* lattice() const { return lattice_.load(std::memory_order_acquire); }
-  /// Reports that the mesh was measured in vain, which lattice() could have avoided. The call with which this becomes
-  /// frequent makes the lattice, while other threads go on without. Any thread may call this.
-  void measuredInVain() const;
+  /// Counts a measurement of the mesh that found no contact. One of the calls, after some thousands, makes lattice().
+  /// This call takes milliseconds longer; meanwhile other threads go on without. Any thread may call this.
+  void countApart() const;
 
   MeshTree tree;
   Enclosure enclosure;
@@ -39,7 +39,7 @@ struct PreparedMesh {
  private:
   mutable std::once_flag spheres_found_;
   mutable std::vector<Sphere> spheres_;
-  mutable std::atomic<std::uint32_t> measured_in_vain_{0};
+  mutable std::atomic<std::uint32_t> apart_{0};
   mutable std::unique_ptr<const DistanceLattice> made_;
   mutable std::atomic<const DistanceLattice*> lattice_{nullptr};  // made_, when it is complete
 };
@@ -53,7 +53,7 @@ class MeshSolid final : public OrderedSolid {
   const Enclosure& enclosure() const { return mesh_->enclosure; }
   const std::vector<Sphere>& innerSpheres() const { return mesh_->innerSpheres(); }
   const DistanceLattice* lattice() const { return mesh_->lattice(); }
-  void measuredInVain() const { mesh_->measuredInVain(); }
+  void countApart() const { mesh_->countApart(); }
 
  private:
   std::shared_ptr<const PreparedMesh> mesh_;

@@ -66,7 +66,7 @@ TEST(DistanceLattice, GivesLowerBoundsThatAreNotMuchTooLow) {
       const Four bounds = lattice.lowerBounds(in_edges);
       for (int lane = 0; lane < 4; ++lane) {
         const double truth = mesh.distanceOf(point[lane]) / lattice.edge();
-        ASSERT_LE(bounds[lane], truth + 1e-3) << point[lane].transpose();
+        ASSERT_LE(bounds[lane], truth + 2e-4) << point[lane].transpose();
         ++(truth > 0.0 ? outside : inside);
         if (truth == 0.0 || truth > 15.0) continue;
         missing += truth - double{bounds[lane]};
@@ -114,14 +114,53 @@ TEST(DistanceLattice, DoesNotTakeACavityForTheOutside) {
   EXPECT_TRUE(lattice.isOutside({0.6, 0, 0}));
 }
 
+/// Claim: the cells of long, thin, tilted triangles are found, and those of meshes that are flat, tiny or far away.
+TEST(DistanceLattice, OfStrangeMeshesIsRight) {
+  TriangleMesh rod;  // a long prism with many sides along the diagonal
+  const std::uint32_t sides = 100;
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Ones());
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const double angle = 2.0 * M_PI * i / sides;
+    for (const double z : {-0.5, 0.5}) {
+      rod.vertices.push_back(turn * Eigen::Vector3d(0.05 * std::cos(angle), 0.05 * std::sin(angle), z));
+    }
+  }
+  for (std::uint32_t i = 0; i < 2 * sides; i += 2) {
+    const std::uint32_t k = (i + 2) % (2 * sides);
+    rod.triangles.push_back({i, k, k + 1});
+    rod.triangles.push_back({i, k + 1, i + 1});
+    if (i != 0 && k != 0) rod.triangles.push_back({0, k, i});
+    if (i != 0 && k != 0) rod.triangles.push_back({1, i + 1, k + 1});
+  }
+  std::vector<TriangleMesh> meshes = {rod, boxMesh({1, 1, 1e-12}), boxMesh({1e-9, 1e-9, 1e-9}),
+                                      boxMesh({1e9, 1, 1e-3})};
+  meshes.push_back(moved(boxMesh({1e-9, 1e-9, 1e-9}), {1e5, -1e5, 1e5}));
+  meshes.push_back(moved(boxMesh({1, 1, 1}), {1e8, 0, 0}));
+  Random random(1);
+  for (const TriangleMesh& shape : meshes) {
+    const TestedMesh mesh(shape);
+    ASSERT_TRUE(mesh.prepared.enclosure.closed());
+    const DistanceLattice lattice(mesh.prepared.tree.triangles());
+    for (int i = 0; i < 500; ++i) {
+      const Eigen::Vector3d point = mesh.randomPoint(random, 0.3);
+      EXPECT_FALSE(mesh.isInside(point) && lattice.isOutside(point));
+      const Eigen::Vector3d relative = (point - lattice.corner()) / lattice.edge();
+      const Four in_edges[3] = {allFour(float(relative[0])), allFour(float(relative[1])), allFour(float(relative[2]))};
+      EXPECT_LE(lattice.lowerBounds(in_edges)[0], mesh.distanceOf(point) / lattice.edge() + 2e-4);
+    }
+  }
+  EXPECT_FALSE(DistanceLattice({{Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)}})
+                   .isOutside({std::nan(""), 0, 1e9}));
+}
+
 TEST(DistanceLattice, IsMadeWhenAClosedMeshWasOftenMeasuredInVain) {
   const PreparedMesh closed(std::make_shared<const TriangleMesh>(trayMesh({1, 1, 1}, 0.1)));
   const PreparedMesh open(std::make_shared<const TriangleMesh>(without(ballMesh(1), 1)));
-  for (int i = 0; i < 100; ++i) closed.measuredInVain();
+  for (int i = 0; i < 100; ++i) closed.countApart();
   EXPECT_EQ(closed.lattice(), nullptr);
   for (int i = 0; i < 10000; ++i) {
-    closed.measuredInVain();
-    open.measuredInVain();
+    closed.countApart();
+    open.countApart();
   }
   EXPECT_NE(closed.lattice(), nullptr);
   EXPECT_EQ(open.lattice(), nullptr) << "an open mesh encloses no certain space";

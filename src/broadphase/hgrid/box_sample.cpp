@@ -7,6 +7,7 @@
 #include <functional>
 #include <utility>
 
+#include "broadphase/kernels/kernels.h"
 #include "geometry/infinity.h"
 
 namespace hgrid {
@@ -67,7 +68,7 @@ double BoxSample::leastFollowers(std::size_t axis, double length) const {
   if (size_ < kFew) return 0.0;
   std::array<float, kFew> values;
   for (std::size_t i = 0; i < kFew; ++i) values[i] = corners_[i * size_ / kFew][axis];
-  const auto most = static_cast<float>(length);
+  const auto most = static_cast<float>(std::min(length, static_cast<double>(kernels::kMostFloat)));
   int near = 0;  // counts two values that are near each other twice, and each value with itself
   for (const float a : values) {
     for (const float b : values) near += std::abs(a - b) <= most;

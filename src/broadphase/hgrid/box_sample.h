@@ -44,8 +44,8 @@ class BoxSample {
   /// Estimates how many boxes follow a box along the axis, on average: their minimum is at most `length` [m] above the
   /// minimum of the box. The estimate is too low if the ids are ordered so that the sample has one box of each cluster.
   double followers(std::size_t axis, double length) const;
-  /// Estimates a number that followers() is hardly ever below, from a few of the sampled boxes. Takes a small part of
-  /// the time of followers().
+  /// Estimates a number that followers() is hardly ever below if boxes are spread evenly, from a few of the sampled
+  /// boxes. If they are clustered, it is too high more often. Takes a small part of the time of followers().
   double leastFollowers(std::size_t axis, double length) const;
 
   /// Returns whether boxes that are near each other on this axis are also near each other on the other two, so that the

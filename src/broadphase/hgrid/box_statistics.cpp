@@ -49,8 +49,8 @@ BoxStatistics statisticsOf(const std::vector<Aabb>& boxes, const ProxyId* ids, s
   BoxStatistics statistics;
   statistics.boxes = count;
   statistics.finest_edge = finest_edge;
-  // Boxes are added to the first and to the second sums in turn. Otherwise, successive boxes, which are often of the
-  // same size, would wait for each other.
+  // Boxes are added to the first and to the second sums in turn. Otherwise each addition would wait for the one before,
+  // because successive boxes are often of the same size.
   std::array<std::array<Sum, BoxStatistics::kSizes>, 2> sums;
   Four lower = allFour(kFloatInfinity), upper = allFour(-kFloatInfinity);
   const auto per_edge = static_cast<float>(1.0 / finest_edge);  // exact: the edge is a power of 2

@@ -76,8 +76,8 @@ Cells cellsOf(const Census& level, const Window& window, const AxisOrder& axes, 
 Cells bestCellsOf(const Census& level, const Window& window);
 /// Plans one row of cells for all boxes, along the cheapest axis. A search then tests each box only against the boxes
 /// that begin before it ends, as in a sweep along one axis (Ericson 2005, 7.5). The cost is estimated from the sample,
-/// so it also holds for boxes that are spread unevenly. Its cost is infinite if it is clearly more than
-/// `most_cost`.
+/// so it also holds for boxes that are spread unevenly. Returns an infinite cost if a row clearly costs more
+/// than `most_cost`.
 Cells oneRowOf(const Census& all, const BoxSample& sample, const Window& window, double most_cost);
 /// Estimates the cost [ns] to find the pairs of the boxes `asking` with the boxes `asked` of another level.
 /// @param cells  the cells of the boxes `asked`

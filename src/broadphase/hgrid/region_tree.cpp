@@ -22,7 +22,7 @@ constexpr std::size_t kBoxesPerSample = 4;  // of very many boxes, one of each f
 // rises by more than its cost. For random samples of evenly spread boxes, the log-likelihood rises by less.
 constexpr double kGainPerSample = 0.25, kGain = 40.0;
 constexpr std::size_t kWorthSplitting = 80;  // boxes; fewer take so little time in one region that no split is tried
-constexpr std::size_t kBins = 32;            // a group is split between two of so many parts of equal length
+constexpr std::size_t kBins = 32;            // number of equal parts of a group; splits between them are tried
 // If a split gains less than this fraction of its cost, the samples may be spread evenly. Then further splits would be
 // tried in vain.
 constexpr double kLittleGain = 0.25;

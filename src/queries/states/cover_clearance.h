@@ -7,6 +7,10 @@
 
 namespace hgrid {
 
+/// Bound of the rounding errors of a point of a shape in another frame, as a part of the sum of all lengths from which
+/// the point is computed.
+inline constexpr float kPointRounding = 4e-6f;
+
 /// Returns one bit for each of four states: whether all spheres of a cover are surely farther than `reach` from
 /// something, in a frame in which lower bounds of the distances from it are known. The unit of lengths is that of these
 /// bounds.
@@ -19,8 +23,10 @@ namespace hgrid {
 template <class Axis, class LowerBounds>
 unsigned coverIsFarther(const SphereCover& cover, const Four (&middle)[3], const Axis& axis, float per_meter,
                         const Four& reach, unsigned lanes, const LowerBounds& lowerBounds) {
-  const auto where = [](const Four& a, const Four& b) { return bitsOf(reinterpret_cast<FourCounts>(a > b)); };
-  const unsigned wholly = where(lowerBounds(middle), reach + cover.whole * per_meter) & lanes;
+  const auto bitsWhereGreater = [](const Four& a, const Four& b) {
+    return bitsOf(reinterpret_cast<FourCounts>(a > b));
+  };
+  const unsigned wholly = bitsWhereGreater(lowerBounds(middle), reach + cover.whole * per_meter) & lanes;
   if (wholly == lanes || cover.count[0] * cover.count[1] == 1) return wholly;
   Four steps[2][3], center[3] = {middle[0], middle[1], middle[2]};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -34,7 +40,7 @@ unsigned coverIsFarther(const SphereCover& cover, const Four (&middle)[3], const
   for (std::uint32_t i = 0; i < cover.count[0]; ++i) {
     Four point[3] = {center[0], center[1], center[2]};
     for (std::uint32_t k = 0; k < cover.count[1]; ++k) {
-      far &= where(lowerBounds(point), least);
+      far &= bitsWhereGreater(lowerBounds(point), least);
       if (far == 0) return wholly;
       for (std::size_t row = 0; row < 3; ++row) point[row] += steps[1][row];
     }

@@ -5,11 +5,6 @@
 #include "queries/states/cover_clearance.h"
 
 namespace hgrid {
-namespace {
-
-constexpr float kPointRounding = 2e-6f;  // relative bound of the rounding errors of a point in the frame of the map
-
-}  // namespace
 
 MapClearance::MapClearance(const PlacedMap& map, const Eigen::Vector3d& origin) : blocks_(map.cells.distances.get()) {
   if (blocks_ == nullptr) return;
@@ -29,7 +24,7 @@ unsigned MapClearance::farther(const FourShapes& shape, const SphereCover& cover
   const auto turned = [&](const Four(&vector)[3], std::size_t row) {
     return allFour(turn_[row][0]) * vector[0] + allFour(turn_[row][1]) * vector[1] + allFour(turn_[row][2]) * vector[2];
   };
-  Four center[3], size = allFour(1.0f);
+  Four center[3], size = allFour(1.0f + cover.whole * per_edge_);
   for (std::size_t row = 0; row < 3; ++row) {
     center[row] = turned(box.center, row) + shift_[row];
     size += absolute(box.center[row]) * per_edge_ + std::abs(shift_[row]);

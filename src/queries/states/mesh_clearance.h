@@ -12,10 +12,11 @@ namespace hgrid {
 /// spheres of a SphereCover with the bounds of a DistanceLattice.
 class MeshClearance {
  public:
-  /// @param shape  must outlive this object. If it is not a mesh of the package's own narrow phase, nothing is far
+  /// @param shape  must outlive this object. Nothing is far from it unless it is a closed mesh of the package's own
+  /// narrow phase
   explicit MeshClearance(const BodyShape& shape);
 
-  /// Returns whether the shape is a mesh.
+  /// Returns whether the shape is such a mesh.
   bool exists() const { return mesh_ != nullptr; }
   /// Returns one bit for each of four states: whether another shape is surely farther than `reach` [m] from the mesh.
   /// @param mesh, other  where the mesh and the other shape are
@@ -23,8 +24,8 @@ class MeshClearance {
   /// @param lanes        bit i: whether the result matters for state i
   unsigned farther(const FourShapes& mesh, const FourShapes& other, const SphereCover& cover, const Four& reach,
                    unsigned lanes) const;
-  /// Reports that the mesh and another shape were measured and not in contact.
-  void measuredInVain() const { mesh_->measuredInVain(); }
+  /// Counts a measurement of the mesh that found no contact, see PreparedMesh::countApart(). exists() must be true.
+  void countApart() const { mesh_->countApart(); }
 
  private:
   const MeshSolid* mesh_;

@@ -259,11 +259,17 @@ void RobotShapes::addSelfPairs(const PairFilter& filter) {
   for (std::uint32_t i = 0; i < counting_; ++i) {
     for (std::uint32_t k = i + 1; k < shapes_.size(); ++k) {
       if (filter.allowed(shapes_[i].body, shapes_[k].body)) continue;
-      const bool second_is_larger = volume(shapes_[k].in_group) > volume(shapes_[i].in_group);
-      const bool asks_second = shapes_[k].clearance.exists() && (second_is_larger || !shapes_[i].clearance.exists());
-      self_pairs_.push_back({i, k, asks_second ? k : i});
+      self_pairs_.push_back({i, k, meshOf(i, k)});
     }
   }
+}
+
+/// Returns SelfPair::mesh of two shapes.
+std::uint32_t RobotShapes::meshOf(std::uint32_t first, std::uint32_t second) const {
+  const RobotShape &a = shapes_[first], &b = shapes_[second];
+  if (!a.what->solid || !b.what->solid) return Structure::kNone;
+  if (!a.clearance.exists()) return b.clearance.exists() ? second : Structure::kNone;
+  return b.clearance.exists() && volume(b.in_group) > volume(a.in_group) ? second : first;
 }
 
 void RobotShapes::place(const std::vector<FourPoses>& groups, const std::uint8_t* changing,

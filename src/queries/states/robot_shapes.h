@@ -46,7 +46,9 @@ struct ShapeCluster {
 /// Two shapes of the robot that must not touch each other. They are indices into RobotShapes::shapes().
 struct SelfPair {
   std::uint32_t first, second;
-  std::uint32_t mesh;  ///< the one whose RobotShape::clearance is asked first: a mesh, and the larger one of two meshes
+  /// The one whose RobotShape::clearance is asked: the closed mesh, or the larger of two. Structure::kNone if there is
+  /// none, or if a shape cannot be measured.
+  std::uint32_t mesh;
 };
 
 /// The shapes that move with the joints of one robot, or of several joined robots, and their pairs that the pair filter
@@ -87,6 +89,7 @@ class RobotShapes {
   void addShapesOf(const Snapshot& snapshot, const QueryScope& scope, bool counts);
   void addClusters();
   void addSelfPairs(const PairFilter& filter);
+  std::uint32_t meshOf(std::uint32_t first, std::uint32_t second) const;
 
   std::vector<RobotBody> bodies_;
   std::vector<RobotShape> shapes_;  // sorted by rigid group, so that place() reads each of them once

@@ -144,7 +144,7 @@ void StateSearch::findSelf() {
 /// Returns in which of four states the shapes of a pair are surely farther apart than `reach`, according to the one of
 /// them that is a mesh. @param lanes  bit i: whether the result matters for state i
 unsigned StateSearch::farFromMesh(const SelfPair& pair, const Four& reach, unsigned lanes) const {
-  if (lanes == 0) return 0;
+  if (lanes == 0 || pair.mesh == Structure::kNone) return 0;
   const std::uint32_t other = pair.mesh == pair.first ? pair.second : pair.first;
   return robot_.shapes()[pair.mesh].clearance.farther(scratch_.placed[pair.mesh], scratch_.placed[other],
                                                       robot_.shapes()[other].cover, reach, lanes);
@@ -340,8 +340,8 @@ void StateSearch::measure(std::size_t lane, const NearShapes& near) {
   if (near.with == With::self) {
     const BodyShape& other = *robot_.shapes()[near.other].what;
     pair.proximity = robot.measure(near.own, other.solid.get(), robot.worldFromShape(near.other), other.padding, limit);
-    const MeshClearance& clearance = robot_.shapes()[robot_.selfPairs()[near.pair].mesh].clearance;
-    if (clearance.exists() && !isContact(pair.proximity.status)) clearance.measuredInVain();
+    const std::uint32_t mesh = robot_.selfPairs()[near.pair].mesh;
+    if (mesh != Structure::kNone && !isContact(pair.proximity.status)) robot_.shapes()[mesh].clearance.countApart();
   } else if (near.with == With::shape) {
     pair.proximity = robot.measureBody(near.own, pair.second, pair.second_shape, limit);
   } else {

@@ -64,6 +64,31 @@ TEST(MeshClearance, ReportsOnlyShapesBeyondTheReach) {
   EXPECT_GT(in_box, 100);
 }
 
+/// Claim: a lattice changes no answer about shapes that cannot be measured. They are in contact if their boxes are.
+TEST(MeshClearance, IsNotAskedAboutShapesThatCannotBeMeasured) {
+  Random random(1);
+  WorldPlan plan;
+  plan.obstacles = 0;
+  plan.map = plan.plane = plan.attached = false;
+  plan.closed_meshes = true;
+  StateWorld world = randomStateWorld(random, plan);
+  int self_pairs = 0;
+  for (const bool measured : {true, false}) {
+    for (RobotLink& link : world.model.links) {
+      if (!measured && &link != &world.model.links.front()) link.shapes.front().solid = nullptr;
+    }
+    Scene scene{SceneOptions()};
+    for (const Body& body : bodiesOf(world.model, "robot", world.matrix)) put(scene, body, Pose::Identity());
+    const auto snapshot = scene.commit(Time{2}, {});
+    const RobotShapes shapes(*snapshot, world.kinematics(), "robot", {}, QueryScope());
+    for (const SelfPair& pair : shapes.selfPairs()) {
+      EXPECT_EQ(pair.mesh != Structure::kNone, measured);
+      ++self_pairs;
+    }
+  }
+  EXPECT_GT(self_pairs, 4);
+}
+
 TEST(MeshClearance, SaysNothingWithoutALattice) {
   const BodyShape box = solidShape(Shape::box({1, 1, 1})), mesh = solidShape(meshOf(trayMesh({1, 1, 1}, 0.1)));
   EXPECT_FALSE(MeshClearance(box).exists());

@@ -77,7 +77,7 @@ inline void addShapes(RobotModel& model, Random& random, int most = 3, double si
 /// Makes the lattice of a shape, if it is a closed mesh. @returns whether it has one
 inline bool makeLattice(const BodyShape& shape) {
   const auto* mesh = dynamic_cast<const MeshSolid*>(shape.solid.get());
-  for (int i = 0; mesh != nullptr && mesh->lattice() == nullptr && i < 10000; ++i) mesh->measuredInVain();
+  for (int i = 0; mesh != nullptr && mesh->lattice() == nullptr && i < 10000; ++i) mesh->countApart();
   return mesh != nullptr && mesh->lattice() != nullptr;
 }
 
