@@ -332,6 +332,8 @@ CORE = [
      "touched_[i] == 0 ? kMost"),
     ("every point is outside of a mesh with a lattice", "narrow/distance_lattice.cpp", "return bounds_[number] > 0;",
      "return true;"),
+    ("a lattice answers for shapes that cannot be measured", "queries/states/robot_shapes.cpp",
+     "if (!a.what->solid || !b.what->solid) return Structure::kNone;", ""),
     ("shapes are far from a mesh although its padding is near", "queries/states/mesh_clearance.cpp",
      "reach + allFour(padding_)", "reach"),
     ("voxels in one layer around a block are not seen", DISTANCES, "box.min()[k] = (first[axis] - kMargin) * edge();",
