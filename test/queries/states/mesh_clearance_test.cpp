@@ -16,7 +16,7 @@ using namespace test;
 /// Claim: shapes that are said to be farther than the reach are farther, inside a tray as well.
 TEST(MeshClearance, ReportsOnlyShapesBeyondTheReach) {
   int farther = 0, nearer = 0, in_box = 0;
-  for (unsigned seed = 1; seed <= 60; ++seed) {
+  for (unsigned seed = 1; seed <= 15; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const double away = random.chance(0.3) ? 1e4 : 1.0;
@@ -59,9 +59,9 @@ TEST(MeshClearance, ReportsOnlyShapesBeyondTheReach) {
       }
     }
   }
-  EXPECT_GT(farther, 1000);
-  EXPECT_GT(nearer, 1000);
-  EXPECT_GT(in_box, 100);
+  EXPECT_GT(farther, 200);
+  EXPECT_GT(nearer, 200);
+  EXPECT_GT(in_box, 20);
 }
 
 /// Claim: a lattice changes no answer about shapes that cannot be measured. They are in contact if their boxes are.
