@@ -21,7 +21,7 @@ TEST(MeshClearance, ReportsOnlyShapesBeyondTheReach) {
     Random random(seed);
     const double away = random.chance(0.3) ? 1e4 : 1.0;
     const Eigen::Vector3d size(random.uniform(0.3, 1.0), random.uniform(0.3, 1.0), random.uniform(0.3, 1.0));
-    const BodyShape tray = solidShape(meshOf(trayMesh(size, 0.02)), Pose::Identity(), random.uniform(0.0, 0.02));
+    const BodyShape tray = solidShape(meshOf(trayMesh(size, 0.02)), Pose::Identity(), random.uniform(0.0, 0.1));
     ASSERT_TRUE(makeLattice(tray));
     const MeshClearance clearance(tray);
     ASSERT_TRUE(clearance.exists());
