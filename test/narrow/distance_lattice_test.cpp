@@ -100,7 +100,8 @@ TEST(DistanceLattice, TellsMostPointsOutsideFromThoseInside) {
   EXPECT_GT(told, 0.8 * outside);
 }
 
-/// A closed box inside a closed box leaves no way out for the space between them, so no cell there is free.
+/// Claim: no path leads out of the hollow of a closed shell, so no cell there is free, although the mesh does not
+/// enclose it.
 TEST(DistanceLattice, DoesNotTakeACavityForTheOutside) {
   TriangleMesh mesh = boxMesh({1, 1, 1});
   const TriangleMesh inner = boxMesh({0.8, 0.8, 0.8});

@@ -56,8 +56,7 @@ struct WorldPlan {
   double size = 0.15;  ///< [m] of these shapes
   double far = 1.2;    ///< [m] how far obstacles are from the origin along each axis
   bool attached = true, map = true, plane = true;
-  bool closed_meshes =
-      false;  ///< whether the links are closed meshes with lattices, the first one a tray around the others
+  bool closed_meshes = false;  ///< whether the links are those of addClosedMeshes()
   Pose world_from_root = Pose::Identity();
 };
 
@@ -81,7 +80,8 @@ inline bool makeLattice(const BodyShape& shape) {
   return mesh != nullptr && mesh->lattice() != nullptr;
 }
 
-/// Gives each link of a robot a closed mesh with a lattice. @param size  [m] of the meshes of moving links
+/// Gives each link of a robot a closed mesh with a lattice: the first link a tray, in which the others are.
+/// @param size  [m] longest side of the meshes of the others
 inline void addClosedMeshes(RobotModel& model, Random& random, double size) {
   for (RobotLink& link : model.links) {
     const bool is_first = &link == &model.links.front();
