@@ -44,6 +44,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/hgrid/hgrid.cpp
   src/broadphase/hgrid/layer.cpp
   src/broadphase/hgrid/layer_plan.cpp
+  src/broadphase/hgrid/nearest.cpp
   src/broadphase/hgrid/occupancy.cpp
   src/broadphase/hgrid/pair_collection.cpp
   src/broadphase/hgrid/pair_search.cpp

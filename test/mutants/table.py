@@ -18,6 +18,7 @@ PAIRS = "broadphase/hgrid/pair_search.cpp"
 BOUNDS_TREE = "broadphase/hgrid/bounds_tree.cpp"
 COLLECTION = "broadphase/hgrid/pair_collection.cpp"
 HGRID = "broadphase/hgrid/hgrid.cpp"
+NEAREST = "broadphase/hgrid/nearest.cpp"
 QUERIES = "broadphase/hgrid/queries.cpp"
 SCENE = "world/scene.cpp"
 COMMIT = "world/commit.cpp"
@@ -232,8 +233,10 @@ CORE = [
      "kRounding = 2.5e-7", "kRounding = 0.0"),
     ("hits along a segment are in reverse order", QUERIES,
      "a.along < b.along", "a.along > b.along"),
-    ("the search for the nearest boxes ends as soon as it finds any box", QUERIES,
-     "(enough && found[kept - 1].distance <= radius)", "kept > 0"),
+    ("the search for the nearest boxes ends as soon as it finds any box", NEAREST,
+     "(enough && found.back().distance <= radius)", "!found.empty()"),
+    ("the search for the nearest boxes leaves out the last ring that it needs", NEAREST,
+     "ringOf(hit) <= last ? 1", "ringOf(hit) < last ? 1"),
     ("boxes near the corners of the box around a sphere count as hits", QUERIES,
      "query.center) <= near * near", "query.center) <= 3.0 * near * near"),
     ("a row of boxes on a line also includes the boxes after it", AVX2,

@@ -2,9 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <functional>
-#include <limits>
+#include <cstdint>
+#include <vector>
 
 #include "broadphase/hgrid/engine.h"
 #include "broadphase/hgrid/found_boxes.h"
@@ -144,70 +143,6 @@ std::vector<std::uint32_t> byPosition(const std::vector<Query>& queries, const L
   return order;
 }
 
-/// Estimates the radius [m] of a sphere that contains `count` boxes of a level.
-double likelyRadius(const kernels::Level& level, std::size_t count) {
-  if (level.begin == level.end) return std::numeric_limits<double>::infinity();
-  double volume = static_cast<double>(count) / (level.end - level.begin);
-  for (int i = 0; i < 3; ++i) volume *= (level.grid.last[i] + 1.0) / static_cast<double>(level.grid.inverse[i]);
-  return 0.5 * std::cbrt(volume);
-}
-
-/// Estimates the radius [m] of a sphere that contains `count` boxes of a layer with one row. `leaf` is the bounds of
-/// some of them.
-double likelyRadius(const kernels::Level& level, const kernels::Box& leaf, std::size_t count) {
-  double longest = 1e-30;
-  std::array<double, 3> sides;
-  for (int i = 0; i < 3; ++i) {
-    longest = std::max(longest, static_cast<double>(leaf.max[i]) - leaf.min[i]);
-    sides[static_cast<std::size_t>(i)] = static_cast<double>(level.around.max[i]) - level.around.min[i];
-  }
-  std::sort(sides.begin(), sides.end());
-  // The boxes may be spread in space, on a surface or on a line.
-  const double share = static_cast<double>(count) / (level.end - level.begin), on_line = share * sides[2];
-  const double on_surface = std::sqrt(on_line * sides[1]), in_space = std::cbrt(on_line * sides[1] * sides[0]);
-  const double along_row = longest * std::max(1.0, static_cast<double>(count) / BoundsTree::kPerLeaf);
-  return std::min(along_row, std::max({0.5 * on_line, 0.5 * on_surface, 0.5 * in_space, 1e-30}));
-}
-
-/// Returns the distance [m] of a point from a box, or 0 if the point is inside.
-double distanceTo(const kernels::Box& bounds, const Eigen::Vector3d& point) {
-  double squared = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    const double away = std::max({bounds.min[i] - point[i], point[i] - bounds.max[i], 0.0});
-    squared += away * away;
-  }
-  return std::sqrt(squared);
-}
-
-/// A search for the boxes nearest to a point. It searches spheres of growing radius around the point.
-struct SphereSearch {
-  double radius = std::numeric_limits<double>::infinity();  // [m] estimate: a sphere of this radius has enough boxes
-  double step = radius;                                     // [m] how much the radius grows if there were too few boxes
-
-  /// Uses an estimate about some boxes, if it makes the sphere smaller. `away` [m] is the distance of these boxes from
-  /// the point. A sphere of radius `within` [m] whose center is among these boxes contains enough of them.
-  void consider(double within, double away) {
-    if (!(away + within < radius)) return;
-    radius = away + within;
-    step = within;
-  }
-};
-
-/// Estimates the first radius for a search for `count` boxes around a point.
-template <class Engine>
-SphereSearch searchAround(const Engine& engine, const Eigen::Vector3d& point, std::size_t count) {
-  SphereSearch search;
-  for (const Layer& layer : engine.layers) {
-    layer.bounds().visit([&](const kernels::Box& bounds) { return distanceTo(bounds, point) < search.radius; },
-                         [&](std::uint32_t number, const kernels::Box& bounds) {
-                           const double within = layer.isOneRow() ? likelyRadius(layer.levels().front(), bounds, count)
-                                                                  : likelyRadius(layer.levels()[number], count);
-                           search.consider(within, distanceTo(bounds, point));
-                         });
-  }
-  return search;
-}
-
 /// Answers many queries. If the boxes do not fit into the cache, answers the queries in the order of byPosition().
 template <class Engine, class Query, class Found>
 void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<Found>& batch) {
@@ -278,44 +213,6 @@ void HGrid::overlapping(const std::vector<Sphere>& spheres, IdBatch& found) cons
 
 void HGrid::along(const std::vector<Segment>& segments, SegmentBatch& found) const {
   answerAll(*engine_, segments, found);
-}
-
-void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limit, std::vector<NearHit>& found) const {
-  found.clear();
-  const Engine& e = *engine_;
-  count = std::min(count, e.stored);
-  if (count == 0 || !(limit >= 0.0)) return;
-  const auto nearer = [](const NearHit& a, const NearHit& b) {
-    return a.distance != b.distance ? a.distance < b.distance : a.id < b.id;
-  };
-  // Searches spheres of growing radius until a sphere contains enough boxes. Each search finds all boxes within the
-  // radius.
-  SphereSearch search = searchAround(e, point, count);
-  for (double radius = std::min(search.radius, limit);;) {
-    const bool all = !(radius < 1e30);  // the coordinates of a larger sphere may exceed the range of float
-    found.clear();
-    const auto consider = [&](ProxyId id, const Aabb& box) {
-      const double away = distance(box, point);
-      if (away <= limit) found.push_back({id, away});
-    };
-    if (all) {
-      for (ProxyId id = 0; id < e.layer_of.size(); ++id) {
-        if (e.isStored(id)) consider(id, e.boxes[id]);
-      }
-    } else {
-      visitFound(e, boxOf(Sphere{point, radius}), [&](const auto& boxes, const PositionWriter& places) {
-        for (const std::uint32_t place : places) consider(boxes.idAt(place), boxes.boxAt(place));
-      });
-    }
-    const std::size_t kept = std::min(count, found.size());
-    std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end(), nearer);
-    // The search also finds boxes that are farther away than the radius: they are in the corners of the box around the
-    // sphere. If the search found enough boxes, the next radius is the distance of the farthest box that is kept.
-    const bool enough = kept == count;
-    if (all || radius >= limit || (enough && found[kept - 1].distance <= radius)) return found.resize(kept);
-    radius = std::min(enough ? found[kept - 1].distance : radius + std::max(search.step, 0.25 * radius), limit);
-    search.step *= 2.0;
-  }
 }
 
 }  // namespace hgrid

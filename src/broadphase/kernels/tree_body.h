@@ -108,24 +108,26 @@ inline __attribute__((always_inline)) void searchLeaf(const BoxTree& tree, std::
   }
 }
 
-/// Searches all nodes from the root on. Not inlined, see searchTree().
+/// Returns which boxes of an inner node pass: bit k is that of lane k % kBoxes of block k / kBoxes.
 template <class Test>
-__attribute__((noinline)) void searchNodes(const BoxTree& tree, const typename Test::Numbers& query,
+inline __attribute__((always_inline)) std::uint32_t passing(const BoxTree& tree, std::uint32_t node, const Test& test) {
+  const TreeBlock* const blocks = tree.inner + (node >> BoxTree::kShift);
+  std::uint32_t bits = passing(blocks[0], test);
+  if ((node & BoxTree::kTwoBlocks) != 0) bits |= passing(blocks[1], test) << TreeBlock::kBoxes;
+  return bits;
+}
+
+/// Searches all nodes below the root. Not inlined, see searchTree(). @param bits  which boxes of the root pass
+template <class Test>
+__attribute__((noinline)) void searchNodes(const BoxTree& tree, std::uint32_t bits, const typename Test::Numbers& query,
                                            PositionSink* sink) {
   const Test test(query);
   Output<std::uint32_t> found(sink);
-  std::uint32_t waiting[TreeBlock::kBoxes * BoxTree::kMostDepth];  // inner nodes to visit
+  // Inner nodes to visit. Only the root has more than kBoxes of them below it, and leaves and their parents have none.
+  std::uint32_t waiting[TreeBlock::kBoxes * BoxTree::kMostDepth];
   std::uint32_t* end = waiting;
-  if ((tree.root & BoxTree::kLeaf) != 0) {
-    searchLeaf(tree, tree.root >> BoxTree::kShift, test, found);
-  } else {
-    *end++ = tree.root;
-  }
-  while (end != waiting) {
-    const std::uint32_t node = *--end;
+  for (std::uint32_t node = tree.root;;) {
     const TreeBlock* const blocks = tree.inner + (node >> BoxTree::kShift);
-    std::uint32_t bits = passing(blocks[0], test);  // bit k is that of lane k % kBoxes of block k / kBoxes
-    if ((node & BoxTree::kTwoBlocks) != 0) bits |= passing(blocks[1], test) << TreeBlock::kBoxes;
     for (; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::uint32_t>(__builtin_ctz(bits));
       const std::uint32_t below = blocks[k / TreeBlock::kBoxes].below[k % TreeBlock::kBoxes];
@@ -138,18 +140,30 @@ __attribute__((noinline)) void searchNodes(const BoxTree& tree, const typename T
         }
       }
     }
+    if (end == waiting) break;
+    node = *--end;
+    bits = passing(tree, node, test);
   }
   found.close();
 }
 
-/// Writes the slots of the boxes that pass. A root with one block is tested first. If none of its boxes passes, that is
-/// all, and there is no time spent on what the search of other nodes needs.
+/// Searches a tree that is one leaf.
+template <class Test>
+__attribute__((noinline)) void searchOnlyLeaf(const BoxTree& tree, const typename Test::Numbers& query,
+                                              PositionSink* sink) {
+  Output<std::uint32_t> found(sink);
+  searchLeaf(tree, tree.root >> BoxTree::kShift, Test(query), found);
+  found.close();
+}
+
+/// Writes the slots of the boxes that pass. The root is tested first. If none of its boxes passes, that is all, and
+/// there is no time spent on what the search of other nodes needs.
 template <class Test>
 inline __attribute__((always_inline)) void searchTree(const BoxTree& tree, const typename Test::Numbers& query,
                                                       PositionSink* sink) {
-  const bool one_block = (tree.root & (BoxTree::kLeaf | BoxTree::kTwoBlocks)) == 0;
-  if (one_block && passing(tree.inner[tree.root >> BoxTree::kShift], Test(query)) == 0) return;
-  searchNodes<Test>(tree, query, sink);
+  if ((tree.root & BoxTree::kLeaf) != 0) return searchOnlyLeaf<Test>(tree, query, sink);
+  const std::uint32_t bits = passing(tree, tree.root, Test(query));
+  if (bits != 0) searchNodes<Test>(tree, bits, query, sink);
 }
 
 void overlappingInTree(const BoxTree* tree, const Box* box, PositionSink* sink) {
