@@ -106,6 +106,25 @@ TEST(RegionTree, FindsHeapsOfDifferentSizes) {
   EXPECT_GE(regions, 5u * 42);
 }
 
+/// A single box is enough to make the bounds of a group long.
+TEST(RegionTree, SeparatesSingleBoxesFarAwayFromAHeap) {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    Random random(seed);
+    std::vector<Aabb> boxes = heap(random, 300, {0, 0, 0});
+    for (const int side : {-1, 1}) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const Eigen::Vector3d place = side * random.uniform(1e3, 1e5) * Eigen::Vector3d::Unit(axis);
+        boxes.push_back(boxAround(place, Eigen::Vector3d::Ones()));
+      }
+    }
+    const RegionTree tree = treeOf(boxes);
+    const std::uint32_t region = tree.regionOf(boxes[0].min.data());
+    for (std::size_t i = 1; i < boxes.size(); ++i) {
+      EXPECT_EQ(tree.regionOf(boxes[i].min.data()) == region, i < 300) << "box " << i << ", seed " << seed;
+    }
+  }
+}
+
 /// Claim: a coordinate that is not representable as a difference of floats does no harm.
 TEST(RegionTree, OfBoxesAtTheEndsOfTheRangeOfFloat) {
   Random random(1);

@@ -15,7 +15,6 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kLeast = 2;           // smallest number of samples in a region
 constexpr std::size_t kFewSamples = 2048;   // if there are fewer boxes than twice this number, all are samples
 constexpr std::size_t kBoxesPerSample = 4;  // of very many boxes, one of each four successive boxes is a sample
 // [nats] The cost of a split: kGain, plus kGainPerSample for each sample. A split is made only if the log-likelihood
@@ -76,7 +75,7 @@ class RegionTree::Division {
  public:
   Division(const std::vector<Aabb>& boxes, const ProxyId* ids, std::size_t count) {
     const std::size_t stride = std::max<std::size_t>(1, std::min(kBoxesPerSample, count / kFewSamples));
-    worth_splitting_ = std::max(kWorthSplitting / stride, 2 * kLeast);
+    worth_splitting_ = kWorthSplitting / stride;
     samples_.reserve(count / stride + 1);
     std::array<double, 3> sides{};
     for (std::size_t i = 0; i < count; i += stride) {
@@ -94,7 +93,7 @@ class RegionTree::Division {
 
   RegionTree tree() {
     RegionTree tree;
-    if (samples_.size() < 4 * kLeast) return tree;
+    if (samples_.size() < worth_splitting_) return tree;
     divide(0, samples_.size(), allSamples(), 0);
     tree.branches_.clear();
     tree.regions_.clear();
@@ -211,10 +210,9 @@ class RegionTree::Division {
       above[bin].add(bins[bin]);
     }
     CornerGroup below;
-    for (std::size_t bin = 1; bin < kBins; ++bin) {
+    for (std::size_t bin = 1; bin < kBins; ++bin) {  // the first and the last bin are never empty
       if (bins[bin - 1].count == 0.0) continue;  // the same two groups as for the split before
       below.add(bins[bin - 1]);
-      if (below.count < kLeast || above[bin].count < kLeast) continue;
       const double likelihoods = roughLikelihood(below) + roughLikelihood(above[bin]);
       if (likelihoods <= best.likelihood) continue;
       best.likelihood = likelihoods;
