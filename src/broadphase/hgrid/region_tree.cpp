@@ -21,7 +21,7 @@ constexpr std::size_t kBoxesPerSample = 4;  // of very many boxes, one of each f
 // rises by more than its cost. For random samples of evenly spread boxes, the log-likelihood rises by less.
 constexpr double kGainPerSample = 0.25, kGain = 40.0;
 constexpr std::size_t kWorthSplitting = 80;  // boxes; fewer take so little time in one region that no split is tried
-constexpr std::size_t kBins = 32;            // number of equal parts of a group; splits between them are tried
+constexpr std::int32_t kBins = 32;           // number of equal parts of a group; splits between them are tried
 // If a split gains less than this fraction of its cost, the samples may be spread evenly. Then further splits would be
 // tried in vain.
 constexpr double kLittleGain = 0.25;
@@ -79,7 +79,8 @@ class RegionTree::Division {
     samples_.reserve(count / stride + 1);
     std::array<double, 3> sides{};
     for (std::size_t i = 0; i < count; i += stride) {
-      const Aabb& box = boxes[ids[std::min(i + scatteredBelow(stride, samples_.size()), count - 1)]];
+      const std::size_t chosen = stride == 1 ? i : std::min(i + scatteredBelow(stride, samples_.size()), count - 1);
+      const Aabb& box = boxes[ids[chosen]];
       samples_.emplace_back(box.min[0], box.min[1], box.min[2], 0.0f);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         sides[axis] +=
@@ -200,8 +201,8 @@ class RegionTree::Division {
     std::array<CornerGroup, kBins> bins;
     const double scale = kBins / length;
     for (std::size_t i = begin; i < end; ++i) {
-      const double bin = (static_cast<double>(coordinate(samples_[i], axis)) - low) * scale;
-      bins[std::min(static_cast<std::size_t>(bin), kBins - 1)].add(samples_[i]);
+      const auto bin = static_cast<std::int32_t>((static_cast<double>(coordinate(samples_[i], axis)) - low) * scale);
+      bins[static_cast<std::uint32_t>(std::min(bin, kBins - 1))].add(samples_[i]);
     }
     std::array<CornerGroup, kBins> above;  // above[i]: the sum of the bins i .. kBins - 1
     above[kBins - 1] = bins[kBins - 1];
@@ -211,7 +212,7 @@ class RegionTree::Division {
     }
     CornerGroup below;
     for (std::size_t bin = 1; bin < kBins; ++bin) {  // the first and the last bin are never empty
-      if (bins[bin - 1].count == 0.0) continue;  // the same two groups as for the split before
+      if (bins[bin - 1].count == 0.0) continue;      // the same two groups as for the split before
       below.add(bins[bin - 1]);
       const double likelihoods = roughLikelihood(below) + roughLikelihood(above[bin]);
       if (likelihoods <= best.likelihood) continue;
