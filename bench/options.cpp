@@ -56,7 +56,8 @@ const char* const kUsage =
     "                   [--workload uniform,mixed,floor,robots,heaps2,heaps64,fleet,strays,diagonal,levy,rods,giants,\n"
     "                    torus,tower,line,decades,onecell,sizes,building,geb079,cloud]\n"
     "                   [--moving 1,0.1,0.01] [--movers same,changing] [--peer 'hgrid,sweep,FCL DynamicAABBTree,...'] "
-    "[--questions 100000]\n";
+    "[--questions 100000]\n"
+    "                   [--limit SECONDS]\n";
 
 bool Options::part(const std::string& name) const { return wanted(parts, name); }
 bool Options::workload(const std::string& name) const { return wanted(workloads, name); }
@@ -101,6 +102,9 @@ Options parsed(int count, const char* const* arguments) {
       for (const std::string& item : split(value)) options.sizes.push_back(static_cast<std::size_t>(numberOf(item)));
     } else if (name == "--moving") {
       for (const std::string& item : split(value)) options.moving.push_back(numberOf(item));
+    } else if (name == "--limit") {
+      options.limit = numberOf(value);
+      if (!(options.limit > 0.0)) throw std::invalid_argument("--limit must be positive; it is " + value);
     } else if (name == "--questions") {
       const double questions = numberOf(value);
       options.questions = questions >= 1e3 && questions <= 1e7 ? static_cast<std::size_t>(questions) : 0;

@@ -111,8 +111,8 @@ void play(const Options& options, const Setting& setting, const std::vector<Run>
   }
   const bool even = isEven(setting.workload);
   const int rounds = options.quick || setting.n >= 1000000 || !even ? 3 : 5;
-  const double limit_s = options.quick ? 20.0 : even ? 120.0 : 40.0;  // enough to load and run about four frames
-  match.play(rounds, options.quick ? 40.0 : 150.0, limit_s);
+  const double usual_s = options.quick ? 20.0 : even ? 120.0 : 40.0;  // enough to load and run about four frames
+  match.play(rounds, options.quick ? 40.0 : 150.0, options.limit > 0.0 ? options.limit : usual_s);
 
   const char* what = !runs.empty() && runs.front().loads  ? ", loading and first pairs"
                      : setting.movers == Movers::changing ? ", other boxes in each frame"

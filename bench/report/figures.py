@@ -7,6 +7,8 @@ WORKLOADS = ['uniform', 'mixed', 'floor', 'robots']
 QUERIES = ['sphere', 'segment', 'box', 'nearest', 'nearest8']
 MAP_QUERIES = ['touches', 'small', 'overlapping', 'segment']
 TREE = 'FCL DynamicAABBTree'
+# The fields that make up the setting of a record about broad phases.
+SETTING = ['kind', 'peer', 'workload', 'n', 'moving', 'movers', 'threads', 'isa', 'age', 'query', 'placed', 'batched']
 
 
 class Figures:
@@ -21,6 +23,10 @@ class Figures:
             record.setdefault('movers', 'same')  # older files do not have this field
         for record in self.all('query'):
             record.setdefault('placed', 'near')
+        newest = {tuple(record.get(name) for name in SETTING): record for record in self.records}
+        self.records = [record for record in self.records
+                        if record['kind'] not in ('pairs', 'loading', 'ageing', 'query')
+                        or newest[tuple(record.get(name) for name in SETTING)] is record]
         runs = self.all('run')
         self.run = runs[0] if runs else {}
 
