@@ -104,7 +104,9 @@ Options parsed(int count, const char* const* arguments) {
       for (const std::string& item : split(value)) options.moving.push_back(numberOf(item));
     } else if (name == "--limit") {
       options.limit = numberOf(value);
-      if (!(options.limit > 0.0)) throw std::invalid_argument("--limit must be positive; it is " + value);
+      if (!(options.limit > 0.0 && options.limit <= 1e6)) {
+        throw std::invalid_argument("--limit must be above 0 and at most 1000000 s; it is " + value);
+      }
     } else if (name == "--questions") {
       const double questions = numberOf(value);
       options.questions = questions >= 1e3 && questions <= 1e7 ? static_cast<std::size_t>(questions) : 0;

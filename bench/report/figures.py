@@ -7,28 +7,53 @@ WORKLOADS = ['uniform', 'mixed', 'floor', 'robots']
 QUERIES = ['sphere', 'segment', 'box', 'nearest', 'nearest8']
 MAP_QUERIES = ['touches', 'small', 'overlapping', 'segment']
 TREE = 'FCL DynamicAABBTree'
-# The fields that make up the setting of a record about broad phases.
-SETTING = ['kind', 'peer', 'workload', 'n', 'moving', 'movers', 'threads', 'isa', 'age', 'query', 'placed', 'batched']
+BROAD_PHASES = ['pairs', 'loading', 'ageing']  # kinds of records about pairs
+WORLD = ['kind', 'workload', 'n', 'moving', 'movers', 'age', 'query', 'placed']  # fields: what is computed
+SETTING = WORLD + ['peer', 'threads', 'isa', 'batched']                          # fields: what is computed and how
+
+
+def world(record):
+    return tuple(record.get(name) for name in WORLD)
+
+
+def setting(record):
+    return tuple(record.get(name) for name in SETTING)
 
 
 class Figures:
-    """The records of one or several figures files. If several records have the same setting, the last one is used."""
+    """The records of one or several figures files. If several records about broad phases have the same setting, the last
+    one is used. A record of hgrid that no peer's result could be compared with is not used if there is another one. A
+    wrong result is always used."""
 
     def __init__(self, paths):
         self.records = []
         for path in paths:
             with open(path) as file:
-                self.records += json.load(file)
-        for record in self.all('pairs'):
-            record.setdefault('movers', 'same')  # older files do not have this field
-        for record in self.all('query'):
-            record.setdefault('placed', 'near')
-        newest = {tuple(record.get(name) for name in SETTING): record for record in self.records}
-        self.records = [record for record in self.records
-                        if record['kind'] not in ('pairs', 'loading', 'ageing', 'query')
-                        or newest[tuple(record.get(name) for name in SETTING)] is record]
+                self._add(json.load(file))
         runs = self.all('run')
         self.run = runs[0] if runs else {}
+
+    def _add(self, records):
+        """Adds the records of a file, and removes those that they replace."""
+        for record in records:
+            if record['kind'] in BROAD_PHASES:
+                record.setdefault('movers', 'same')  # older files do not have this field
+            if record['kind'] == 'query':
+                record.setdefault('placed', 'near')
+        judged = {world(record) for record in records if record.get('correct')}
+        new = {setting(record): record for record in records if record['kind'] in BROAD_PHASES + ['query']}
+        known = {setting(record) for record in self.records}
+        useless = {key for key, record in new.items()
+                   if not record['correct'] and world(record) not in judged and key in known}
+        self.records = [record for record in self.records
+                        if setting(record) not in new or setting(record) in useless or self._is_wrong(record)]
+        self.records += [record for record in records
+                         if setting(record) not in useless and new.get(setting(record), record) is record]
+
+    def _is_wrong(self, record):
+        """Returns whether the result of hgrid differs from that of the peers."""
+        return (record['peer'] == 'hgrid' and not record['correct']
+                and any(world(other) == world(record) for other in self.records if other.get('correct')))
 
     def all(self, kind, **wanted):
         """Returns the records of a kind whose fields equal the `wanted` values."""

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "test/support/brute_force.h"
 #include "test/support/grids.h"
 
 namespace hgrid {
@@ -60,6 +61,36 @@ TEST(HGridEdges, AHugeBoxTakesTheMemoryOfOneBox) {
     bytes[is_huge ? 1 : 0] = grid.bytes();
   }
   EXPECT_LE(bytes[1], bytes[0] + 4096);
+}
+
+/// Claim: the nearest boxes are right if many boxes are equally far away, also if their distances are infinite, because
+/// their squares exceed the range of double.
+TEST(HGridEdges, NearestBoxesOfPointsFarAway) {
+  for (const bool equal : {false, true}) {
+    test::Random random(1);
+    std::vector<Aabb> boxes;
+    for (int i = 0; i < 300; ++i) {
+      const Eigen::Vector3d place = equal ? Eigen::Vector3d(1, 2, 3) : test::randomVector(random, -5, 5);
+      boxes.push_back(test::boxAround(place, {1, 1, 1}));
+    }
+    HGrid grid;
+    test::BruteForce brute_force;
+    grid.update(test::allIds(boxes.size()), boxes);
+    brute_force.update(test::allIds(boxes.size()), boxes);
+    for (const double x : {1.0, 20.0, 1e4, 1e17, 1e38, 1e160, 1e300}) {
+      for (const std::size_t count : {1u, 2u, 8u, 100u, 299u, 500u}) {
+        SCOPED_TRACE("x " + std::to_string(x) + ", boxes: " + std::to_string(count));
+        std::vector<NearHit> found, expected;
+        grid.nearest({x, 2, 3}, count, std::numeric_limits<double>::infinity(), found);
+        brute_force.nearest({x, 2, 3}, count, std::numeric_limits<double>::infinity(), expected);
+        ASSERT_EQ(found.size(), expected.size());
+        for (std::size_t k = 0; k < found.size(); ++k) {
+          ASSERT_EQ(found[k].id, expected[k].id);
+          ASSERT_EQ(found[k].distance, expected[k].distance);
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

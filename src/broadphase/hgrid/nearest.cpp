@@ -80,34 +80,38 @@ bool nearer(const NearHit& a, const NearHit& b) {
   return a.distance != b.distance ? a.distance < b.distance : a.id < b.id;
 }
 
-/// Keeps the nearest `count` hits (at least one) and sorts them. If there are many more, first removes most of the
-/// others: counts the hits in rings around the point, and removes those outside the last ring that is needed. This has
-/// no branches that could be mispredicted, so it takes less time than sorting all hits. @param radius  [m] the rings
-/// end here
+/// Keeps the nearest `count` hits and sorts them. `count` must be at least 1. If there are many more hits, most of
+/// those that are too far are removed first: hits are counted in rings around the point, and those beyond the last ring
+/// that is needed are removed. These loops have no branches that could be mispredicted.
+/// @param radius  [m] where the rings end; hits may be farther away
 void keepNearest(std::vector<NearHit>& hits, std::size_t count, double radius) {
-  constexpr std::size_t kRings = 32, kFew = 8;
+  constexpr std::size_t kFew = 8, kRings = 32;
+  if (hits.size() <= 1) return;
   if (count == 1) {
-    if (!hits.empty()) std::iter_swap(hits.begin(), std::min_element(hits.begin(), hits.end(), nearer));
-  } else {
-    if (hits.size() > count + kFew) {
-      const double scale = kRings / std::max(radius, 1e-300);
-      const auto ringOf = [scale](const NearHit& hit) {
-        return static_cast<std::uint32_t>(std::min(hit.distance * scale, kRings - 1.0));
-      };
-      std::array<std::uint32_t, kRings> in_ring{};
-      for (const NearHit& hit : hits) ++in_ring[ringOf(hit)];
-      std::size_t last = 0, within = in_ring[0];
-      while (within < count) within += in_ring[++last];
-      std::size_t size = 0;
-      for (const NearHit hit : hits) {
-        hits[size] = hit;
-        size += ringOf(hit) <= last ? 1 : 0;
-      }
-      hits.resize(size);
-    }
-    std::sort(hits.begin(), hits.end(), nearer);
+    std::iter_swap(hits.begin(), std::min_element(hits.begin(), hits.end(), nearer));
+    return hits.resize(1);
   }
-  hits.resize(std::min(count, hits.size()));
+  if (hits.size() > count + kFew) {
+    const double scale = kRings / std::max(radius, 1e-300);
+    const auto ringOf = [scale](const NearHit& hit) {  // the last ring if the product is NaN
+      return static_cast<std::uint32_t>(std::min(kRings - 1.0, hit.distance * scale));
+    };
+    std::array<std::uint32_t, kRings> in_ring{};
+    for (const NearHit& hit : hits) ++in_ring[ringOf(hit)];
+    std::size_t last = 0, within = in_ring[0];
+    while (within < count) within += in_ring[++last];
+    std::size_t size = 0;
+    for (const NearHit hit : hits) {
+      hits[size] = hit;
+      size += ringOf(hit) <= last ? 1 : 0;
+    }
+    hits.resize(size);
+  }
+  const auto end = hits.begin() + static_cast<std::ptrdiff_t>(std::min(count, hits.size()));
+  const bool many = hits.size() > 2 * count;  // for example because the point is far away
+  if (many) std::nth_element(hits.begin(), end, hits.end(), nearer);
+  std::sort(hits.begin(), many ? end : hits.end(), nearer);
+  hits.erase(end, hits.end());
 }
 
 }  // namespace
@@ -141,11 +145,11 @@ void HGrid::nearest(const Eigen::Vector3d& point, std::size_t count, double limi
         found.resize(size);
       });
     }
-    const bool enough = found.size() >= count;
-    keepNearest(found, count, radius);
     // The search also finds boxes that are farther away than the radius: they are in the corners of the box around the
     // sphere. If the search found enough boxes, the next radius is the distance of the farthest box that is kept.
-    if (all || radius >= limit || (enough && found.back().distance <= radius)) return;
+    const bool enough = found.size() >= count, last = all || radius >= limit;
+    if (enough || last) keepNearest(found, count, radius);
+    if (last || (enough && found.back().distance <= radius)) return;
     radius = std::min(enough ? found.back().distance : radius + std::max(search.step, 0.25 * radius), limit);
     search.step *= 2.0;
   }

@@ -12,11 +12,11 @@ namespace hgrid {
 /// A tree over the boxes of a layer, for many queries between two changes. It has copies of the boxes, so it is valid
 /// until the layer changes. See kernels::BoxTree.
 ///
-/// The tree is built from the root down. If a node has many boxes, they are divided into up to 16 parts where this
-/// makes the bounds of the parts small, by the surface area heuristic (Goldsmith and Salmon, "Automatic Creation of
-/// Object Hierarchies for Ray Tracing", 1987) with bins along the longest axis (Wald, "On fast Construction of
-/// SAH-based Bounding Volume Hierarchies", 2007). Below the root there are up to 32 parts, if many queries visit them.
-/// Fewer boxes are divided at medians, so that all leaves of such a part but the last are full.
+/// The tree is built from the root down. If a node has more than 512 boxes, they are divided into up to 16 parts where
+/// this makes the bounds of the parts small, by the surface area heuristic (Goldsmith and Salmon, "Automatic Creation
+/// of Object Hierarchies for Ray Tracing", 1987) with bins along the longest axis (Wald, "On fast Construction of
+/// SAH-based Bounding Volume Hierarchies", 2007). The boxes below the root are divided into up to 32 parts if this
+/// saves time. At most 512 boxes are divided at medians, so that all leaves of such a part but the last are full.
 ///
 /// A "slot" is the place of a box in the leaves.
 class QueryTree {

@@ -94,7 +94,6 @@ class RegionTree::Division {
 
   RegionTree tree() {
     RegionTree tree;
-    if (samples_.size() < worth_splitting_) return tree;
     divide(0, samples_.size(), allSamples(), 0);
     tree.branches_.clear();
     tree.regions_.clear();
@@ -200,7 +199,7 @@ class RegionTree::Division {
     if (!(length > 0.0)) return best;
     std::array<CornerGroup, kBins> bins;
     const double scale = kBins / length;
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t i = begin; i < end; ++i) {  // 32 bits, because they are converted in fewer steps
       const auto bin = static_cast<std::int32_t>((static_cast<double>(coordinate(samples_[i], axis)) - low) * scale);
       bins[static_cast<std::uint32_t>(std::min(bin, kBins - 1))].add(samples_[i]);
     }
@@ -211,8 +210,9 @@ class RegionTree::Division {
       above[bin].add(bins[bin]);
     }
     CornerGroup below;
-    for (std::size_t bin = 1; bin < kBins; ++bin) {  // the first and the last bin are never empty
-      if (bins[bin - 1].count == 0.0) continue;      // the same two groups as for the split before
+    for (std::size_t bin = 1; bin < kBins;
+         ++bin) {                                // the first and the last bin hold the lowest and the highest corner
+      if (bins[bin - 1].count == 0.0) continue;  // the same two groups as for the split before
       below.add(bins[bin - 1]);
       const double likelihoods = roughLikelihood(below) + roughLikelihood(above[bin]);
       if (likelihoods <= best.likelihood) continue;

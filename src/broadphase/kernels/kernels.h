@@ -100,8 +100,8 @@ struct alignas(64) TreeBlock {
 };
 
 /// A tree of bounding volumes (Ericson 2005, chapter 6) over boxes. Each node is one or two blocks. Below a node with
-/// two blocks are only leaves. A leaf has one block. A node is a number: its index << kShift, plus kLeaf and kTwoBlocks
-/// where they apply. The index is that of its first block.
+/// two blocks are only leaves, unless it is the root. A leaf has one block. A node is a number: its index << kShift,
+/// plus kLeaf and kTwoBlocks where they apply. The index is that of its first block.
 struct BoxTree {
   static constexpr std::uint32_t kLeaf = 1, kTwoBlocks = 2;
   static constexpr int kShift = 2;

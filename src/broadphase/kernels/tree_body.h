@@ -117,14 +117,17 @@ inline __attribute__((always_inline)) std::uint32_t passing(const BoxTree& tree,
   return bits;
 }
 
-/// Searches all nodes below the root. Not inlined, see searchTree(). @param bits  which boxes of the root pass
+/// Searches all nodes below the root, which must not be a leaf. Not inlined, see searchTree().
+/// @param bits  which boxes of the root pass
 template <class Test>
 __attribute__((noinline)) void searchNodes(const BoxTree& tree, std::uint32_t bits, const typename Test::Numbers& query,
                                            PositionSink* sink) {
   const Test test(query);
   Output<std::uint32_t> found(sink);
-  // Inner nodes to visit. Only the root has more than kBoxes of them below it, and leaves and their parents have none.
+  // Inner nodes to visit. The root adds up to 2 * kBoxes, each other node takes one away and adds up to kBoxes.
   std::uint32_t waiting[TreeBlock::kBoxes * BoxTree::kMostDepth];
+  static_assert(2 * TreeBlock::kBoxes + (TreeBlock::kBoxes - 1) * (BoxTree::kMostDepth - 2) <= sizeof waiting / 4,
+                "a path of inner nodes below the root has at most kMostDepth - 2 of them");
   std::uint32_t* end = waiting;
   for (std::uint32_t node = tree.root;;) {
     const TreeBlock* const blocks = tree.inner + (node >> BoxTree::kShift);
