@@ -20,8 +20,6 @@
 #include <utility>
 #include <vector>
 
-#include "node/tick/time_slice.h"
-
 namespace hgrid {
 
 /// A callback queue with its own threads. All callbacks of its two node handles run on these threads only.
@@ -110,7 +108,6 @@ class CallbackThreads {
   /// Runs callbacks until there must be at most `number` threads.
   void serve(std::uint32_t number) {
     ros::disableAllSignalsInThisThread();
-    askForShortTimeSlices();  // a nodelet runs in a process that did not ask for them
     while (mayRun() && number < wanted_) queue_.callOne(ros::WallDuration(kLongestWait));
   }
   /// Ends all threads but the first `left`. The calling thread must have locked servers_mutex_.

@@ -12,11 +12,9 @@
 #include "node/name_watch.h"
 #include "node/proximity_node.h"
 #include "node/shutdown.h"
-#include "node/tick/time_slice.h"
 
 int main(int argc, char** argv) {
-  hgrid::askForShortTimeSlices();  // before other threads exist, because those of roscpp must inherit it
-  hgrid::shutDownOnSignals();      // before ros::init(), which may wait for the master
+  hgrid::shutDownOnSignals();  // before ros::init(), which may wait for the master
   ros::init(argc, argv, "proximity", ros::init_options::NoSigintHandler);
   const hgrid::NameWatch name_watch;
   ros::NodeHandle node, private_node("~");
