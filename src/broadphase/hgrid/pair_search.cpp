@@ -133,6 +133,28 @@ bool firstAsks(const kernels::Level& first, const kernels::Level& second) {
          static_cast<double>(second.end - second.begin) * rowsAsked(second, first);
 }
 
+/// Estimates how many boxes of a level overlap a box, as if they were spread evenly in the bounds of the level. At
+/// least 1.
+double boxesIn(const kernels::Level& level, const kernels::Box& box) {
+  double boxes = level.end - level.begin;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double length = static_cast<double>(level.around.max[axis]) - level.around.min[axis];
+    const double common = static_cast<double>(std::min(level.around.max[axis], box.max[axis])) -
+                          std::max(level.around.min[axis], box.min[axis]);
+    if (common < length) boxes *= common / length;
+  }
+  return std::max(boxes, 1.0);
+}
+
+/// Decides like firstAsks() for two levels of which only the boxes ask that overlap the bounds of the other level. Of
+/// the level with more boxes, all are assumed to ask: a few boxes far away can make its bounds much too large.
+bool firstAsksInBounds(const kernels::Level& first, const kernels::Level& second) {
+  double asking_first = first.end - first.begin, asking_second = second.end - second.begin;
+  (asking_first < asking_second ? asking_first : asking_second) =
+      asking_first < asking_second ? boxesIn(first, second.around) : boxesIn(second, first.around);
+  return asking_first * rowsAsked(first, second) <= asking_second * rowsAsked(second, first);
+}
+
 /// Adds tasks that test the boxes of two levels against each other.
 void addAcross(std::vector<SearchTask>& tasks, const kernels::Level& first, const kernels::Level& second) {
   if (first.begin == first.end || second.begin == second.end) return;
@@ -256,7 +278,7 @@ class RegionSearch {
   /// Finds the pairs of two levels.
   void meet(const kernels::Level& a, const kernels::Level& b) {
     if (sink_->full || !overlap(a.around, b.around)) return;
-    if (firstAsks(a, b)) {
+    if (firstAsksInBounds(a, b)) {
       ask(a, b);
     } else {
       ask(b, a);
