@@ -146,8 +146,9 @@ double boxesIn(const kernels::Level& level, const kernels::Box& box) {
   return std::max(boxes, 1.0);
 }
 
-/// Decides like firstAsks() for two levels of which only the boxes ask that overlap the bounds of the other level. Of
-/// the level with more boxes, all are assumed to ask: a few boxes far away can make its bounds much too large.
+/// Works like firstAsks(), but only boxes that overlap the bounds of the other level ask. Their number is estimated for
+/// the level with fewer boxes. Of the level with more boxes, all are counted, because a few boxes far away can make its
+/// bounds so large that the estimate would be much too small.
 bool firstAsksInBounds(const kernels::Level& first, const kernels::Level& second) {
   double asking_first = first.end - first.begin, asking_second = second.end - second.begin;
   (asking_first < asking_second ? asking_first : asking_second) =
