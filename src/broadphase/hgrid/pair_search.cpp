@@ -151,8 +151,11 @@ double boxesIn(const kernels::Level& level, const kernels::Box& box) {
 /// bounds so large that the estimate would be much too small.
 bool firstAsksInBounds(const kernels::Level& first, const kernels::Level& second) {
   double asking_first = first.end - first.begin, asking_second = second.end - second.begin;
-  (asking_first < asking_second ? asking_first : asking_second) =
-      asking_first < asking_second ? boxesIn(first, second.around) : boxesIn(second, first.around);
+  if (asking_first < asking_second) {
+    asking_first = boxesIn(first, second.around);
+  } else {
+    asking_second = boxesIn(second, first.around);
+  }
   return asking_first * rowsAsked(first, second) <= asking_second * rowsAsked(second, first);
 }
 

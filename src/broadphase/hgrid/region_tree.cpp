@@ -210,8 +210,8 @@ class RegionTree::Division {
       above[bin].add(bins[bin]);
     }
     CornerGroup below;
-    for (std::size_t bin = 1; bin < kBins;
-         ++bin) {                                // the first and the last bin hold the lowest and the highest corner
+    // The first and the last bin are never empty: they hold the lowest and the highest corner.
+    for (std::size_t bin = 1; bin < kBins; ++bin) {
       if (bins[bin - 1].count == 0.0) continue;  // the same two groups as for the split before
       below.add(bins[bin - 1]);
       const double likelihoods = roughLikelihood(below) + roughLikelihood(above[bin]);
