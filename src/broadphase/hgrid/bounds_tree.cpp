@@ -68,8 +68,9 @@ void BoundsTree::setBoxes(const kernels::Level& level) {
 /// @param leaf_at  called as kernels::Box leaf_at(number)
 template <class LeafAt>
 void BoundsTree::build(std::size_t leaves, const LeafAt& leaf_at) {
-  bounds_.assign(leaves == 0 ? 0 : valuesFor(leaves), 0.0f);
   tier_count_ = 0;
+  if (leaves == 0) return;
+  if (const std::size_t values = valuesFor(leaves); bounds_.size() < values) bounds_.resize(values);
   float* to = bounds_.data();
   for (std::size_t boxes = leaves; boxes > 0; boxes = boxesAbove(boxes)) {
     const std::size_t stride = boxes + kReadBeyond;

@@ -23,6 +23,7 @@ constexpr std::size_t kPerJob = 4096;  // boxes that one job checks or copies
 /// Divides 0 .. count - 1 into parts and calls job(begin, end) for each part. The workers share the parts.
 template <class Job>
 void inParts(Workers& workers, std::size_t count, Job&& job) {
+  if (count <= kPerJob) return job(std::size_t{0}, count);
   workers.run((count + kPerJob - 1) / kPerJob,
               [&](std::size_t part, std::size_t) { job(part * kPerJob, std::min((part + 1) * kPerJob, count)); });
 }

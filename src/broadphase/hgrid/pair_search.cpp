@@ -66,7 +66,7 @@ class PairWriter {
  public:
   PairWriter(std::vector<ProxyPair>& pairs, std::size_t used, const CombinedFilter& filter, Tally& tally)
       : pairs_(pairs), wanted_end_(used), filter_(filter), tally_(tally) {
-    pairs_.resize(std::max<std::size_t>({pairs_.capacity(), used + 64, 256}));
+    if (pairs_.size() < used + kLeast) pairs_.resize(used + kLeast);
     sink_.owner = this;
     sink_.grow = grow;
     point(used);
@@ -100,7 +100,9 @@ class PairWriter {
     const std::size_t largest = bound < PairBound::kNone - kRoom ? bound + kRoom : PairBound::kNone;
     if (pairs_.size() + kLeast <= largest) {
       const std::size_t end = used();
-      pairs_.resize(std::min(2 * pairs_.size(), largest));
+      // First uses the capacity, without allocating. A larger size would be slower, because resize() writes zeros.
+      const std::size_t most = pairs_.capacity() - pairs_.size() >= kLeast ? pairs_.capacity() : largest;
+      pairs_.resize(std::min({2 * pairs_.size(), most, largest}));
       return point(end);
     }
     point(filter());
@@ -308,13 +310,14 @@ class RegionSearch {
     some.end = static_cast<std::uint32_t>(count);
     if (gathered_.bounds.size() < 6 * some.stride) gathered_.bounds.resize(12 * some.stride);
     if (gathered_.ids.size() < some.stride) gathered_.ids.resize(2 * some.stride);
-    for (std::size_t side = 0; side < 6; ++side) {
-      const float* const from = asking.bounds + side * asking.stride;
-      float* to = gathered_.bounds.data() + side * some.stride;
-      for (const std::uint32_t position : writer) *to++ = from[position];
+    float* bounds = gathered_.bounds.data();
+    std::uint32_t* id = gathered_.ids.data();
+    for (const std::uint32_t position : writer) {
+      const float* const from = asking.bounds + position;
+      for (std::size_t side = 0; side < 6; ++side) bounds[side * some.stride] = from[side * asking.stride];
+      *id++ = asking.id[position];
+      ++bounds;
     }
-    std::uint32_t* to = gathered_.ids.data();
-    for (const std::uint32_t position : writer) *to++ = asking.id[position];
     some.bounds = gathered_.bounds.data();
     some.id = gathered_.ids.data();
     kernels_.pairsAcross(&some, some.begin, some.end, &asked, sink_);
