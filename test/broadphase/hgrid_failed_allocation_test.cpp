@@ -130,7 +130,7 @@ TEST(HGridFailedAllocation, ChangesNothing) {
     test::Random random(seed);
     std::vector<Change> changes;
     Boxes model;
-    for (std::size_t step = 0; step < 220; ++step) {
+    for (std::size_t step = 0; step < 240; ++step) {
       changes.push_back(randomChange(model, random));
       const Change& change = changes.back();
       Boxes then = model;

@@ -50,7 +50,7 @@ TEST(HGridLayers, BoxesThatComeOneByOneAreFoundFromTheFirstOn) {
 
 TEST(HGridLayers, AnyNumberMayBeginToMove) {
   constexpr std::size_t kCount = 400;
-  for (const std::size_t moving : {1, 63, 64, 65, 99, 100, 101, 200, 399, 400}) {
+  for (const std::size_t moving : {1, 2, 15, 16, 17, 63, 64, 65, 99, 100, 101, 200, 399, 400}) {
     SCOPED_TRACE(std::to_string(moving) + " move");
     Random random(moving);
     std::vector<Aabb> boxes = someBoxes(kCount, random);

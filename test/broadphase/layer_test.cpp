@@ -36,5 +36,36 @@ TEST(Layer, WithOneRowIsPlannedAgainSoonAfterItsBoxesHaveComeTogether) {
   }
 }
 
+/// Claim: 16 boxes share one cell, whatever their sizes and places. More boxes get a plan, and fewer share a cell
+/// again.
+TEST(Layer, AFewBoxesShareOneCell) {
+  for (const double longest : {0.0, 3.0}) {
+    test::Random random(2);
+    std::vector<Aabb> boxes;
+    for (int i = 0; i < 40; ++i) {
+      const Eigen::Vector3d sides = random.uniform(0.0, longest) * test::randomVector(random, 0.1, 1);
+      boxes.push_back(test::boxAround(test::randomVector(random, -50, 50), sides));
+    }
+    Workers workers(1);
+    SortScratch scratch;
+    const Machine machine{&kernels::of(bestIsa()), &workers, &scratch};
+    Layer layer;
+    for (const std::size_t count : {1, 16, 17, 40, 16, 2, 0, 3, 17, 12, 18}) {
+      SCOPED_TRACE(std::to_string(count) + " boxes, up to " + std::to_string(longest) + " m");
+      layer.reserve(count, boxes.size(), machine);
+      layer.setIds(test::allIds(count));
+      layer.sort(boxes, 1.0, machine);
+      layer.checkInvariants(boxes);
+      std::int32_t cells = 0;
+      for (const kernels::Level& level : layer.levels()) cells += level.grid.rows * level.grid.row;
+      EXPECT_EQ(cells > 1, count > 16);
+      for (Aabb& box : boxes) {
+        const Eigen::Vector3f way = test::randomVector(random, -1, 1).cast<float>();
+        box = {box.min + way, box.max + way};
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hgrid

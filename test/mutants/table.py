@@ -139,6 +139,12 @@ CORE = [
 
     ("a row of cells stays although it has become crowded", LAYER,
      "sorts_with_plan_ % kSortsPerCheck == 0 && isRowCrowded(machine, threads)", "false"),
+    ("more than a few boxes stay in one cell", LAYER,
+     "sorts_with_plan_ = kSortsPerPlan;  // when", "// when"),
+    ("the bounds of a few boxes end at their minimum corners", LAYER,
+     "level.around.max[axis] = upper[axis + 1];", "level.around.max[axis] = level.around.min[axis];"),
+    ("the last box of a few in one cell is not tested", PAIRS_BODY,
+     "i + 1, level->end - i - 1, found)", "i + 1, level->end - i - 2, found)"),
     ("every fourth id of the list is sampled", "broadphase/hgrid/region_tree.cpp",
      "std::min(i + scatteredBelow(stride, samples_.size()), count - 1)", "i"),
     ("groups of a few samples are not split, even if each sample stands for several boxes",

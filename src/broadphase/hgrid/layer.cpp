@@ -18,6 +18,7 @@ constexpr std::size_t kReadBeyond = 16;                      // positions that k
 constexpr std::size_t kWorthCopying = std::size_t{1} << 18;  // number of boxes; fewer boxes mostly stay in the cache
 constexpr int kSortsPerPlan = 64;                            // after so many sorts, the layer makes a new plan
 constexpr int kSortsPerCheck = 8;                            // after so many sorts, a layer with one row is checked
+constexpr std::size_t kFew = 16;                             // so few boxes share one cell; planning takes longer
 constexpr std::size_t kWorthRegions = 64;                    // a layer with fewer boxes than this has one region
 constexpr std::size_t kWorthOccupancy = 2048;                // for fewer boxes, the bits take too much memory per box
 constexpr double kCrowded = 32.0;     // from this crowding() on, regions are tried; evenly spread boxes have about 2
@@ -77,7 +78,8 @@ void Layer::widen(std::size_t count) {
 }
 
 void Layer::reserve(std::size_t count, std::size_t ids, const Machine& machine) {
-  if (count == 0) return;
+  if (count == 0 || (count <= kFew && stride_ > 0)) return;  // the first call makes room for kFew boxes
+  count = std::max(count, kFew);
   SortScratch& scratch = *machine.scratch;
   const std::size_t threads = threadsFor(count, machine), cells = CellPlan::mostCells(count);
   if (ids >= kWorthCopying) growTo(scratch.copies, count);
@@ -104,13 +106,14 @@ void Layer::reserve(std::size_t count, std::size_t ids, const Machine& machine) 
 
 void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine) {
   ++changes_;
-  reserve(count_, boxes.size(), machine);
   if (count_ == 0) {
     plan_.clear();
     levels_.clear();
     occupancy_.clear();
     return level_bounds_.setLevels(levels_);
   }
+  if (count_ <= kFew) return putIntoOneCell(boxes);
+  reserve(count_, boxes.size(), machine);
   SortScratch& scratch = *machine.scratch;
   const std::size_t threads = threadsFor(count_, machine);
   bool planned = !plan_.fits(count_) || ++sorts_with_plan_ > kSortsPerPlan || levels_.empty() || !plan_.fits(levels_);
@@ -128,6 +131,45 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
   scatter(boxes, machine, threads);
   ids_.swap(other_ids_);
   describe(scratch);
+}
+
+/// Sorts a few boxes: they share one cell, and keep their order.
+void Layer::putIntoOneCell(const std::vector<Aabb>& boxes) {
+  if (!plan_.isOneCell()) plan_.planOneCell();
+  sorts_with_plan_ = kSortsPerPlan;  // when there are more boxes, make a new plan
+  start_[0] = 0;
+  start_[1] = static_cast<std::uint32_t>(count_);
+  levels_.resize(1);
+  kernels::Level& level = levels_.front();
+  level.grid = plan_.grids()[0];
+  level.begin = 0;
+  level.end = start_[1];
+  // Four floats fit into a register: the first four of a box are its minimum corner and one more, the last four are one
+  // more and its maximum corner.
+  using Four = Eigen::Array4f;
+  Four lower = Four::Constant(kFloatInfinity), upper = -lower;
+  float longest[3] = {0.0f, 0.0f, 0.0f}, sum[3] = {0.0f, 0.0f, 0.0f};  // of the sides
+  for (std::size_t i = 0; i < count_; ++i) {
+    const kernels::Box& box = reinterpret_cast<const kernels::Box&>(boxes[ids_[i]]);
+    lower = lower.min(Eigen::Map<const Four>(box.min));
+    upper = upper.max(Eigen::Map<const Four>(box.min + 2));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bounds_[axis * stride_ + i] = box.min[axis];
+      bounds_[(axis + 3) * stride_ + i] = box.max[axis];
+      const float side = box.max[axis] - box.min[axis];
+      longest[axis] = std::max(longest[axis], side);
+      sum[axis] += side;
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    level.reach[axis] = std::nextafter(longest[axis], kFloatInfinity);
+    level.mean_sides[axis] = sum[axis] / static_cast<float>(count_);
+    level.around.min[axis] = lower[axis];
+    level.around.max[axis] = upper[axis + 1];
+  }
+  point();
+  level_bounds_.setLevels(levels_);
+  occupancy_.clear();
 }
 
 /// Makes a new plan and counts the boxes per cell. If too many boxes share a cell, and regions make the cells less

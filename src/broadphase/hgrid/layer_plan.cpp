@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace hgrid {
@@ -99,6 +100,19 @@ void LayerPlan::planOneRegion(const CellPlanner& planner, Rows rows) {
   by_shape_ = plan.by_shape;
   level_of_shape_ = plan.level_of_shape;
   rare_boxes_ = plan.rare_boxes;
+}
+
+void LayerPlan::planOneCell() {
+  CellPlan plan;
+  plan.levels = 1;
+  plan.cells = 1;
+  kernels::Grid& grid = plan.grids[0];  // `inverse` is 0: every coordinate is in cell 0
+  grid.row = grid.slab = grid.rows = 1;
+  std::fill_n(grid.steps, 3, 1);
+  std::iota(grid.axes, grid.axes + 3, 0);
+  clear();
+  append(plan);
+  tree_.setLevels(0, 0, 1);
 }
 
 bool LayerPlan::planRegions(const std::vector<Aabb>& boxes, ProxyId* ids, std::uint32_t* scratch, std::size_t count,

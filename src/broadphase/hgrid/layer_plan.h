@@ -30,6 +30,8 @@ class LayerPlan {
   void clear();
   /// Plans one region for the boxes of the planner. Allocates nothing.
   void planOneRegion(const CellPlanner& planner, Rows rows);
+  /// Plans one cell that holds all boxes. Allocates nothing.
+  void planOneCell();
   /// Plans several regions for the boxes of `count` ids. In each region, boxes are spread about evenly.
   ///
   /// @param ids      in and out: the function sorts them by region
@@ -47,8 +49,10 @@ class LayerPlan {
   const float* sides() const { return sides_.data(); }  ///< [m] longest box side of each level
   /// Returns the level of each shape, see CellPlan::by_shape; null if the longest side of a box selects its level.
   const std::uint8_t* levelOfShape() const { return by_shape_ ? level_of_shape_.data() : nullptr; }
-  /// Returns whether all boxes share one level with one row of cells.
-  bool isOneRow() const { return !isDivided() && levels() == 1 && grids_.front().rows == 1; }
+  /// Returns whether all boxes share one cell.
+  bool isOneCell() const { return cells_ == 1; }
+  /// Returns whether all boxes share one level with one row of several cells.
+  bool isOneRow() const { return !isDivided() && levels() == 1 && grids_.front().rows == 1 && !isOneCell(); }
   /// Returns whether this number of boxes that follow a box in the row is about what was planned, see
   /// CellPlan::followers. If it is larger, the row is slow.
   bool fitsFollowers(double followers) const { return followers <= 2.0 * followers_ + 8.0; }

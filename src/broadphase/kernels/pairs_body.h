@@ -203,6 +203,13 @@ searchBlocks(const Level& level, std::uint32_t begin, std::uint32_t end, Output<
 
 void pairsWithin(const Level* level, std::uint32_t begin, std::uint32_t end, PairSink* sink) {
   Output<Pair> found(sink);
+  const bool is_one_cell = level->grid.row == 1 && level->grid.rows == 1;
+  if (is_one_cell && level->end - level->begin <= kBlock) {  // each box may meet each later one
+    for (std::uint32_t i = begin; i < end && i + 1 < level->end; ++i) {
+      meetRange(*level, i, *level, i + 1, level->end - i - 1, found);
+    }
+    return found.close();
+  }
   for (bool rare = false; begin < end && !found.full(); rare = !rare) {
     begin = rare ? searchBlocks<true>(*level, begin, end, found) : searchBlocks<false>(*level, begin, end, found);
   }
