@@ -139,8 +139,8 @@ CORE = [
 
     ("a row of cells stays although it has become crowded", LAYER,
      "sorts_with_plan_ % kSortsPerCheck == 0 && isRowCrowded(machine, threads)", "false"),
-    ("more than a few boxes stay in one cell", LAYER,
-     "sorts_with_plan_ = kSortsPerPlan;  // when", "// when"),
+    ("more than a few boxes stay in one cell", "broadphase/hgrid/layer_plan.cpp",
+     "  boxes_ = 0;\n", ""),
     ("the bounds of a few boxes end at their minimum corners", LAYER,
      "level.around.max[axis] = upper[axis + 1];", "level.around.max[axis] = level.around.min[axis];"),
     ("the last box of a few in one cell is not tested", PAIRS_BODY,

@@ -18,9 +18,9 @@ constexpr std::size_t kReadBeyond = 16;                      // positions that k
 constexpr std::size_t kWorthCopying = std::size_t{1} << 18;  // number of boxes; fewer boxes mostly stay in the cache
 constexpr int kSortsPerPlan = 64;                            // after so many sorts, the layer makes a new plan
 constexpr int kSortsPerCheck = 8;                            // after so many sorts, a layer with one row is checked
-constexpr std::size_t kFew = 16;                             // so few boxes share one cell; planning takes longer
-constexpr std::size_t kWorthRegions = 64;                    // a layer with fewer boxes than this has one region
-constexpr std::size_t kWorthOccupancy = 2048;                // for fewer boxes, the bits take too much memory per box
+constexpr std::size_t kFew = 16;  // up to so many boxes share one cell, because a plan would take longer than it saves
+constexpr std::size_t kWorthRegions = 64;      // a layer with fewer boxes than this has one region
+constexpr std::size_t kWorthOccupancy = 2048;  // for fewer boxes, the bits take too much memory per box
 constexpr double kCrowded = 32.0;     // from this crowding() on, regions are tried; evenly spread boxes have about 2
 constexpr double kLessCrowded = 0.6;  // regions are used if they reduce crowding() to less than this fraction
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();  // every comparison with it is false
@@ -136,7 +136,6 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
 /// Sorts a few boxes: they share one cell, and keep their order.
 void Layer::putIntoOneCell(const std::vector<Aabb>& boxes) {
   if (!plan_.isOneCell()) plan_.planOneCell();
-  sorts_with_plan_ = kSortsPerPlan;  // when there are more boxes, make a new plan
   start_[0] = 0;
   start_[1] = static_cast<std::uint32_t>(count_);
   levels_.resize(1);
@@ -144,19 +143,18 @@ void Layer::putIntoOneCell(const std::vector<Aabb>& boxes) {
   level.grid = plan_.grids()[0];
   level.begin = 0;
   level.end = start_[1];
-  // Four floats fit into a register: the first four of a box are its minimum corner and one more, the last four are one
-  // more and its maximum corner.
+  // A register has room for four floats: the minimum corner of a box and one more number, or one more number and the
+  // maximum corner.
   using Four = Eigen::Array4f;
   Four lower = Four::Constant(kFloatInfinity), upper = -lower;
   float longest[3] = {0.0f, 0.0f, 0.0f}, sum[3] = {0.0f, 0.0f, 0.0f};  // of the sides
   for (std::size_t i = 0; i < count_; ++i) {
-    const kernels::Box& box = reinterpret_cast<const kernels::Box&>(boxes[ids_[i]]);
-    lower = lower.min(Eigen::Map<const Four>(box.min));
-    upper = upper.max(Eigen::Map<const Four>(box.min + 2));
+    const auto* const box = reinterpret_cast<const float*>(&boxes[ids_[i]]);
+    lower = lower.min(Eigen::Map<const Four>(box));
+    upper = upper.max(Eigen::Map<const Four>(box + 2));
+    for (std::size_t k = 0; k < 6; ++k) bounds_[k * stride_ + i] = box[k];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      bounds_[axis * stride_ + i] = box.min[axis];
-      bounds_[(axis + 3) * stride_ + i] = box.max[axis];
-      const float side = box.max[axis] - box.min[axis];
+      const float side = box[axis + 3] - box[axis];
       longest[axis] = std::max(longest[axis], side);
       sum[axis] += side;
     }
@@ -169,6 +167,7 @@ void Layer::putIntoOneCell(const std::vector<Aabb>& boxes) {
   }
   point();
   level_bounds_.setLevels(levels_);
+  box_bounds_.setOneLeaf(level);
   occupancy_.clear();
 }
 

@@ -79,7 +79,7 @@ class Layer {
   /// Returns whether there are several regions.
   bool isDivided() const { return plan_.isDivided(); }
   const RegionTree& regions() const { return plan_.tree(); }
-  /// Returns whether the layer has one level with one row of several cells.
+  /// Returns whether the layer has one level with one row of cells.
   bool isOneRow() const { return plan_.isOneRow(); }
   /// Returns the bounds for queries: those of the boxes if isOneRow(), else those of the levels.
   const BoundsTree& bounds() const { return isOneRow() ? box_bounds_ : level_bounds_; }

@@ -72,6 +72,7 @@ void LayerPlan::clear() {
   region_boxes_.clear();
   tree_.join();
   cells_ = 0;
+  boxes_ = 0;
   by_shape_ = false;
 }
 
@@ -106,7 +107,8 @@ void LayerPlan::planOneCell() {
   CellPlan plan;
   plan.levels = 1;
   plan.cells = 1;
-  kernels::Grid& grid = plan.grids[0];  // `inverse` is 0: every coordinate is in cell 0
+  kernels::Grid& grid = plan.grids[0];
+  std::fill_n(grid.inverse, 3, 1e-30f);  // any positive number, because `last` is 0
   grid.row = grid.slab = grid.rows = 1;
   std::fill_n(grid.steps, 3, 1);
   std::iota(grid.axes, grid.axes + 3, 0);

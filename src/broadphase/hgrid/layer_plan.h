@@ -30,7 +30,7 @@ class LayerPlan {
   void clear();
   /// Plans one region for the boxes of the planner. Allocates nothing.
   void planOneRegion(const CellPlanner& planner, Rows rows);
-  /// Plans one cell that holds all boxes. Allocates nothing.
+  /// Plans one cell for a few boxes. fits() says that this plan is not good for more than 8 boxes. Allocates nothing.
   void planOneCell();
   /// Plans several regions for the boxes of `count` ids. In each region, boxes are spread about evenly.
   ///
@@ -51,8 +51,8 @@ class LayerPlan {
   const std::uint8_t* levelOfShape() const { return by_shape_ ? level_of_shape_.data() : nullptr; }
   /// Returns whether all boxes share one cell.
   bool isOneCell() const { return cells_ == 1; }
-  /// Returns whether all boxes share one level with one row of several cells.
-  bool isOneRow() const { return !isDivided() && levels() == 1 && grids_.front().rows == 1 && !isOneCell(); }
+  /// Returns whether all boxes share one level with one row of cells.
+  bool isOneRow() const { return !isDivided() && levels() == 1 && grids_.front().rows == 1; }
   /// Returns whether this number of boxes that follow a box in the row is about what was planned, see
   /// CellPlan::followers. If it is larger, the row is slow.
   bool fitsFollowers(double followers) const { return followers <= 2.0 * followers_ + 8.0; }
@@ -84,11 +84,12 @@ class LayerPlan {
   std::vector<std::uint32_t> region_boxes_;       // number of boxes per region when the plan was made
   RegionTree tree_;
   std::uint32_t cells_ = 0;
-  std::size_t boxes_ = 0;                                        // number of boxes that the plan was made for
+  std::size_t boxes_ = 0;                                        // number of boxes that the plan was made for, or 0
   bool by_shape_ = false;                                        // see CellPlan; false if there are several regions
   std::array<std::uint8_t, kernels::kShapes> level_of_shape_{};  // valid only if by_shape_
   double rare_boxes_ = 0.0;                                      // valid only if by_shape_
-  // The next four members describe the boxes of the plan. They are valid only if the layer has one region.
+  // The next four members describe the boxes of the plan. They are valid only if the layer has one region and boxes_ is
+  // not 0.
   std::array<float, 3> lower_{}, upper_{};  // [m] bounds of the minimum corners
   double followers_ = 0.0;                  // see CellPlan
   bool windowed_ = false;                   // whether some minimum corners were outside the window (see CellPlan)

@@ -100,7 +100,8 @@ class PairWriter {
     const std::size_t largest = bound < PairBound::kNone - kRoom ? bound + kRoom : PairBound::kNone;
     if (pairs_.size() + kLeast <= largest) {
       const std::size_t end = used();
-      // First uses the capacity, without allocating. A larger size would be slower, because resize() writes zeros.
+      // Stays within the capacity if it can, so nothing is allocated. Does not use all of it at once, because resize()
+      // writes zeros.
       const std::size_t most = pairs_.capacity() - pairs_.size() >= kLeast ? pairs_.capacity() : largest;
       pairs_.resize(std::min({2 * pairs_.size(), most, largest}));
       return point(end);
@@ -133,32 +134,6 @@ void addTask(std::vector<SearchTask>& tasks, const kernels::Level& asking, const
 bool firstAsks(const kernels::Level& first, const kernels::Level& second) {
   return static_cast<double>(first.end - first.begin) * rowsAsked(first, second) <=
          static_cast<double>(second.end - second.begin) * rowsAsked(second, first);
-}
-
-/// Estimates how many boxes of a level overlap a box, as if they were spread evenly in the bounds of the level. At
-/// least 1.
-double boxesIn(const kernels::Level& level, const kernels::Box& box) {
-  double boxes = level.end - level.begin;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double length = static_cast<double>(level.around.max[axis]) - level.around.min[axis];
-    const double common = static_cast<double>(std::min(level.around.max[axis], box.max[axis])) -
-                          std::max(level.around.min[axis], box.min[axis]);
-    if (common < length) boxes *= common / length;
-  }
-  return std::max(boxes, 1.0);
-}
-
-/// Works like firstAsks(), but only boxes that overlap the bounds of the other level ask. Their number is estimated for
-/// the level with fewer boxes. Of the level with more boxes, all are counted, because a few boxes far away can make its
-/// bounds so large that the estimate would be much too small.
-bool firstAsksInBounds(const kernels::Level& first, const kernels::Level& second) {
-  double asking_first = first.end - first.begin, asking_second = second.end - second.begin;
-  if (asking_first < asking_second) {
-    asking_first = boxesIn(first, second.around);
-  } else {
-    asking_second = boxesIn(second, first.around);
-  }
-  return asking_first * rowsAsked(first, second) <= asking_second * rowsAsked(second, first);
 }
 
 /// Adds tasks that test the boxes of two levels against each other.
@@ -281,13 +256,20 @@ class RegionSearch {
     }
   }
 
-  /// Finds the pairs of two levels.
+  /// Finds the pairs of two levels. Decides as firstAsks() which boxes ask, but of the level with fewer boxes, only
+  /// those that overlap the bounds of the other level count.
   void meet(const kernels::Level& a, const kernels::Level& b) {
     if (sink_->full || !overlap(a.around, b.around)) return;
-    if (firstAsksInBounds(a, b)) {
-      ask(a, b);
+    const bool a_is_smaller = a.end - a.begin <= b.end - b.begin;
+    const kernels::Level &smaller = a_is_smaller ? a : b, &larger = a_is_smaller ? b : a;
+    if (firstAsks(smaller, larger)) return ask(smaller, larger);
+    PositionWriter near(gathered_.positions);
+    select(smaller, larger, near);
+    const double visited = static_cast<double>(near.size()) * rowsAsked(smaller, larger);
+    if (visited <= static_cast<double>(larger.end - larger.begin) * rowsAsked(larger, smaller)) {
+      askSome(smaller, near, larger);
     } else {
-      ask(b, a);
+      ask(larger, smaller);
     }
   }
 
@@ -296,10 +278,20 @@ class RegionSearch {
     constexpr std::uint32_t kFew = 8;  // number of boxes; it is cheaper to test so few boxes without a selection
     if (asking.end - asking.begin <= kFew)
       return kernels_.pairsAcross(&asking, asking.begin, asking.end, &asked, sink_);
-    PositionWriter writer(gathered_.positions);
+    PositionWriter near(gathered_.positions);
+    select(asking, asked, near);
+    askSome(asking, near, asked);
+  }
+
+  /// Finds the boxes of `asking` that overlap the bounds of `asked`.
+  void select(const kernels::Level& asking, const kernels::Level& asked, PositionWriter& near) const {
     const kernels::LevelSet all = {&asking, 1, nullptr, 0, 0};
-    kernels_.overlapping(&all, &asked.around, writer.sink());
-    const std::size_t count = writer.size();
+    kernels_.overlapping(&all, &asked.around, near.sink());
+  }
+
+  /// Finds the pairs of some boxes of `asking` with the boxes of `asked`. @param positions  of these boxes
+  void askSome(const kernels::Level& asking, const PositionWriter& positions, const kernels::Level& asked) {
+    const std::size_t count = positions.size();
     if (count == 0) return;
     if (count == asking.end - asking.begin) {
       return kernels_.pairsAcross(&asking, asking.begin, asking.end, &asked, sink_);
@@ -312,7 +304,7 @@ class RegionSearch {
     if (gathered_.ids.size() < some.stride) gathered_.ids.resize(2 * some.stride);
     float* bounds = gathered_.bounds.data();
     std::uint32_t* id = gathered_.ids.data();
-    for (const std::uint32_t position : writer) {
+    for (const std::uint32_t position : positions) {
       const float* const from = asking.bounds + position;
       for (std::size_t side = 0; side < 6; ++side) bounds[side * some.stride] = from[side * asking.stride];
       *id++ = asking.id[position];
