@@ -64,11 +64,6 @@ void BoundsTree::setBoxes(const kernels::Level& level) {
   });
 }
 
-void BoundsTree::setOneLeaf(const kernels::Level& level) {
-  per_leaf_ = kPerLeaf;
-  build(1, [&level](std::size_t) { return level.around; });
-}
-
 /// Builds all tiers.
 /// @param leaf_at  called as kernels::Box leaf_at(number)
 template <class LeafAt>

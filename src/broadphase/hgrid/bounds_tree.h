@@ -33,11 +33,9 @@ class BoundsTree {
   /// Computes the hierarchy for the boxes of a level that begins at position 0. Allocates nothing after reserveBoxes()
   /// for at least as many boxes. Boxes that are withdrawn later stay in the bounds.
   void setBoxes(const kernels::Level& level);
-  /// Works like setBoxes() for a level with at most kPerLeaf boxes. Takes their bounds from Level::around.
-  void setOneLeaf(const kernels::Level& level);
 
   /// Returns `levels` together with the hierarchy. They must be the levels that were passed to setLevels(), or
-  /// only the level that was passed to setBoxes() or setOneLeaf().
+  /// only the level that was passed to setBoxes().
   kernels::LevelSet over(const std::vector<kernels::Level>& levels) const {
     return {levels.data(), static_cast<std::uint32_t>(levels.size()), tiers_.data(), tier_count_, per_leaf_};
   }

@@ -30,9 +30,8 @@ void makeRoom(std::vector<ProxyId>& ids, std::size_t count) {
 
 HGrid::Engine::Engine(double finest) : finest_edge(finest) {}
 
-void HGrid::Engine::requireStored(ProxyId id) const {
-  if (!isStored(id))
-    throw std::invalid_argument("HGrid: box " + std::to_string(id) + " is not stored; insert it first");
+void HGrid::Engine::throwNotStored(ProxyId id) {
+  throw std::invalid_argument("HGrid: box " + std::to_string(id) + " is not stored; insert it first");
 }
 
 void HGrid::Engine::grow(ProxyId id) {

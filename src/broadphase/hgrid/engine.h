@@ -71,7 +71,10 @@ struct HGrid::Engine {
 
   bool isFixed(ProxyId id) const { return id < fixed.size() && fixed[id]; }
   bool isStored(ProxyId id) const { return id < layer_of.size() && layer_of[id] != kAbsent; }
-  void requireStored(ProxyId id) const;
+  void requireStored(ProxyId id) const {
+    if (!isStored(id)) throwNotStored(id);
+  }
+  [[noreturn]] static void throwNotStored(ProxyId id);
   void requireValid(const std::vector<ProxyId>& ids, const std::vector<Aabb>& given);
   Machine machine() { return {loops, workers.get(), &scratch}; }
 

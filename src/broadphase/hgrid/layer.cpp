@@ -18,9 +18,8 @@ constexpr std::size_t kReadBeyond = 16;                      // positions that k
 constexpr std::size_t kWorthCopying = std::size_t{1} << 18;  // number of boxes; fewer boxes mostly stay in the cache
 constexpr int kSortsPerPlan = 64;                            // after so many sorts, the layer makes a new plan
 constexpr int kSortsPerCheck = 8;                            // after so many sorts, a layer with one row is checked
-constexpr std::size_t kFew = 16;  // up to so many boxes share one cell, because a plan would take longer than it saves
-constexpr std::size_t kWorthRegions = 64;      // a layer with fewer boxes than this has one region
-constexpr std::size_t kWorthOccupancy = 2048;  // for fewer boxes, the bits take too much memory per box
+constexpr std::size_t kWorthRegions = 64;                    // a layer with fewer boxes than this has one region
+constexpr std::size_t kWorthOccupancy = 2048;                // for fewer boxes, the bits take too much memory per box
 constexpr double kCrowded = 32.0;     // from this crowding() on, regions are tried; evenly spread boxes have about 2
 constexpr double kLessCrowded = 0.6;  // regions are used if they reduce crowding() to less than this fraction
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();  // every comparison with it is false
@@ -112,7 +111,7 @@ void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machi
     occupancy_.clear();
     return level_bounds_.setLevels(levels_);
   }
-  if (count_ <= kFew) return putIntoOneCell(boxes);
+  if (isFew()) return putIntoOneCell(boxes);
   reserve(count_, boxes.size(), machine);
   SortScratch& scratch = *machine.scratch;
   const std::size_t threads = threadsFor(count_, machine);
@@ -167,7 +166,6 @@ void Layer::putIntoOneCell(const std::vector<Aabb>& boxes) {
   }
   point();
   level_bounds_.setLevels(levels_);
-  box_bounds_.setOneLeaf(level);
   occupancy_.clear();
 }
 
@@ -474,7 +472,7 @@ void Layer::checkBoxBounds() const {
         throw std::logic_error("HGrid: this invariant is violated: a box is within the bounds of its leaf");
     }
   };
-  box_bounds_.visit([](const kernels::Box&) { return true; }, check);
+  bounds().visit([](const kernels::Box&) { return true; }, check);
 }
 
 }  // namespace hgrid

@@ -81,20 +81,29 @@ class Layer {
   const RegionTree& regions() const { return plan_.tree(); }
   /// Returns whether the layer has one level with one row of cells.
   bool isOneRow() const { return plan_.isOneRow(); }
-  /// Returns the bounds for queries: those of the boxes if isOneRow(), else those of the levels.
-  const BoundsTree& bounds() const { return isOneRow() ? box_bounds_ : level_bounds_; }
+  /// Returns the bounds for queries: those of the boxes if isOneRow(), else those of the levels. The bounds of a few
+  /// boxes are those of their level.
+  const BoundsTree& bounds() const { return isOneRow() && !isFew() ? box_bounds_ : level_bounds_; }
   /// Says where the layer certainly has no boxes.
   const Occupancy& occupancy() const { return occupancy_; }
   /// Returns the levels with a hierarchy of their bounds.
   kernels::LevelSet levelSet() const { return level_bounds_.over(levels_); }
   /// Returns what a query searches: the levels with bounds().
-  kernels::LevelSet querySet() const { return bounds().over(levels_); }
+  kernels::LevelSet querySet() const {
+    kernels::LevelSet set = bounds().over(levels_);
+    if (isFew()) set.per_leaf = BoundsTree::kPerLeaf;  // tests the boxes without looking for their cells
+    return set;
+  }
   /// Returns the allocated memory [bytes].
   std::size_t bytes() const;
   /// @throws std::logic_error that names the first violated invariant
   void checkInvariants(const std::vector<Aabb>& boxes) const;
 
  private:
+  /// Up to so many boxes share one cell, because a plan would take longer than it saves.
+  static constexpr std::size_t kFew = 16;
+
+  bool isFew() const { return count_ <= kFew; }
   void makePlan(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads);
   void putIntoOneCell(const std::vector<Aabb>& boxes);
   bool divide(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads);
@@ -119,7 +128,7 @@ class Layer {
   std::vector<std::uint32_t> start_;  // position of the first box of each cell; at last, the end of the last cell
   std::vector<kernels::Level> levels_;
   BoundsTree level_bounds_;
-  BoundsTree box_bounds_;  // bounds of successive boxes; valid only if isOneRow()
+  BoundsTree box_bounds_;  // bounds of successive boxes; valid only if isOneRow() and not isFew()
   Occupancy occupancy_;
 };
 
