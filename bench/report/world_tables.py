@@ -13,8 +13,9 @@ LOADING_NOTE = 'Median ms in which a new peer loads all boxes and finds the pair
 MOVERS_NOTE = ('Median ms per frame: the same boxes move in every frame / other boxes move in each frame, chosen at '
                'random. In the second case, 30 frames come before the measured ones.')
 
-PREPARATION_NOTE = ('Median of three: all boxes are stored, and what makes later queries faster is built. For hgrid this is '
-                    'one bulk update and `prepareQueries()`; for hgrid unprepared, the bulk update alone.')
+PREPARATION_NOTE = ('Median of three measurements: storing all boxes, and building what makes later queries faster. '
+                    'For hgrid this is one bulk update and `prepareQueries()`; for hgrid unprepared, the bulk update '
+                    'alone.')
 EMPTY_NOTE = ('Median µs per query. The queries are at random places in the bounds of all boxes. Their size gives '
               'about half a hit per query if the world is not too empty for that.')
 

@@ -142,8 +142,8 @@ void Layer::putIntoOneCell(const std::vector<Aabb>& boxes) {
   level.grid = plan_.grids()[0];
   level.begin = 0;
   level.end = start_[1];
-  // A register has room for four floats: the minimum corner of a box and one more number, or one more number and the
-  // maximum corner.
+  // Four floats of a box are compared at once: its minimum corner and the number after it, or its maximum corner and
+  // the number before it.
   using Four = Eigen::Array4f;
   Four lower = Four::Constant(kFloatInfinity), upper = -lower;
   float longest[3] = {0.0f, 0.0f, 0.0f}, sum[3] = {0.0f, 0.0f, 0.0f};  // of the sides

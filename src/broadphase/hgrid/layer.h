@@ -35,8 +35,8 @@ struct Machine {
 };
 
 /// A set of boxes that are sorted by region, level and cell, and stored as a structure of arrays. The "position" of a
-/// box is its index in these arrays. A counting sort with two passes (Ericson 2005, 7.1.4) sorts all boxes at once.
-/// Between two sorts, boxes can be withdrawn.
+/// box is its index in these arrays. A counting sort with two passes (Ericson 2005, 7.1.4) sorts all boxes at once. A
+/// few boxes are not sorted, because they share one cell. Between two sorts, boxes can be withdrawn.
 ///
 /// The caller calls reserve() before it changes anything, so a failed allocation leaves the layer unchanged. The other
 /// functions that change the layer do not throw. If sort() finds that several regions are better than one, it

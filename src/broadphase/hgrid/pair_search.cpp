@@ -129,17 +129,18 @@ void addTask(std::vector<SearchTask>& tasks, const kernels::Level& asking, const
   }
 }
 
-/// Decides in which direction two levels are tested. Returns true if testing the boxes of `first` against the cells of
-/// `second` visits fewer rows of cells than testing the boxes of `second` against the cells of `first`.
-bool firstAsks(const kernels::Level& first, const kernels::Level& second) {
-  return static_cast<double>(first.end - first.begin) * rowsAsked(first, second) <=
+/// Decides in which direction two levels are tested. Returns true if testing boxes of `first` against the cells of
+/// `second` visits fewer rows of cells than testing all boxes of `second` against the cells of `first`.
+/// @param boxes  number of boxes of `first` that would be tested
+bool firstAsks(const kernels::Level& first, std::size_t boxes, const kernels::Level& second) {
+  return static_cast<double>(boxes) * rowsAsked(first, second) <=
          static_cast<double>(second.end - second.begin) * rowsAsked(second, first);
 }
 
 /// Adds tasks that test the boxes of two levels against each other.
 void addAcross(std::vector<SearchTask>& tasks, const kernels::Level& first, const kernels::Level& second) {
   if (first.begin == first.end || second.begin == second.end) return;
-  if (firstAsks(first, second)) {
+  if (firstAsks(first, first.end - first.begin, second)) {
     addTask(tasks, first, &second);
   } else {
     addTask(tasks, second, &first);
@@ -256,17 +257,16 @@ class RegionSearch {
     }
   }
 
-  /// Finds the pairs of two levels. Decides as firstAsks() which boxes ask, but of the level with fewer boxes, only
-  /// those that overlap the bounds of the other level count.
+  /// Finds the pairs of two levels. firstAsks() decides which boxes ask. If necessary, the boxes of the smaller level
+  /// that overlap the bounds of the other level are counted for this, because only they would ask.
   void meet(const kernels::Level& a, const kernels::Level& b) {
     if (sink_->full || !overlap(a.around, b.around)) return;
     const bool a_is_smaller = a.end - a.begin <= b.end - b.begin;
     const kernels::Level &smaller = a_is_smaller ? a : b, &larger = a_is_smaller ? b : a;
-    if (firstAsks(smaller, larger)) return ask(smaller, larger);
+    if (firstAsks(smaller, smaller.end - smaller.begin, larger)) return ask(smaller, larger);
     PositionWriter near(gathered_.positions);
     select(smaller, larger, near);
-    const double visited = static_cast<double>(near.size()) * rowsAsked(smaller, larger);
-    if (visited <= static_cast<double>(larger.end - larger.begin) * rowsAsked(larger, smaller)) {
+    if (firstAsks(smaller, near.size(), larger)) {
       askSome(smaller, near, larger);
     } else {
       ask(larger, smaller);
