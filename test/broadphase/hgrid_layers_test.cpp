@@ -99,59 +99,6 @@ TEST(HGridLayers, KeptPairsEndWithTheRestOfTheirBoxes) {
   }
 }
 
-/// Claim: if other boxes move each time, the pairs of the boxes between moves stay correct. The grid then takes most
-/// pairs from the search before. Between the moves, single boxes come, go and move, whatever their layer is.
-TEST(HGridLayers, BoxesMayTakeTurns) {
-  for (const std::size_t movers :
-       {20, 110, 200}) {  // few, more than the loose boxes may be, and too many to take turns
-    SCOPED_TRACE(std::to_string(movers) + " move");
-    Random random(movers);
-    std::vector<Aabb> boxes = someBoxes(2000, random, 8.0);
-    std::vector<ProxyId> ids = allIds(boxes.size()), last;
-    HGrid grid = test::gridOf(boxes, GridScale{});
-    for (int frame = 0; frame < 80; ++frame) {
-      SCOPED_TRACE("frame " + std::to_string(frame));
-      std::vector<ProxyId> moving;
-      std::vector<Aabb> moved;
-      for (const ProxyId id : ids) {
-        if (frame % 20 == 19 ? !std::binary_search(last.begin(), last.end(), id)  // the same boxes move again
-                             : !random.chance(double(movers) / double(ids.size()))) {
-          continue;
-        }
-        boxes[id] = someBox(random, 8.0);
-        moving.push_back(id);
-        moved.push_back(boxes[id]);
-      }
-      grid.move(moving, moved);
-      last = moving;
-      if (frame % 4 == 0) {
-        ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, ids));
-      }
-      for (const std::vector<ProxyId>& some : {moving, ids}) {
-        const ProxyId id = some[std::size_t(random.below(int(some.size())))];
-        if (random.chance(0.5)) {
-          boxes[id] = someBox(random, 8.0);
-          grid.update(id, boxes[id]);
-        } else if (std::binary_search(ids.begin(), ids.end(), id)) {
-          grid.remove(id);
-          ids.erase(std::lower_bound(ids.begin(), ids.end(), id));
-          if (random.chance(0.5)) {
-            grid.insert(id, boxes[id]);
-            ids.insert(std::lower_bound(ids.begin(), ids.end(), id), id);
-          }
-        }
-        if (!std::binary_search(ids.begin(), ids.end(), id)) break;  // `moving` may have the id, too
-        if (random.chance(0.3)) {
-          ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, ids));
-        }
-      }
-      std::vector<ProxyPair> pairs;
-      grid.overlappingPairs(pairs);
-    }
-    ASSERT_NO_FATAL_FAILURE(expectRight(grid, boxes, ids));
-  }
-}
-
 TEST(HGridLayers, ABoxThatWasRemovedWhileItMovedDoesNotComeBack) {
   Random random(2);
   std::vector<Aabb> boxes = someBoxes(100, random);

@@ -8,7 +8,7 @@
 
 #include "test/support/brute_force.h"
 #include "test/support/expectations.h"
-#include "test/support/worlds.h"
+#include "test/support/uneven_world.h"
 
 // Worlds that are difficult for a grid that computes the size of its cells from the boxes.
 
@@ -111,44 +111,12 @@ TEST(HGridWorlds, RodsAndPlatesAreRightWhileTheyMoveAndTurn) {
   }
 }
 
-/// Returns a world whose boxes are spread so unevenly that the grid divides space into regions. For kind 0, it
-/// uses one row of cells instead.
-std::vector<Aabb> unevenWorld(int kind, std::size_t count, Random& random) {
-  std::vector<Aabb> boxes;
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < count; ++i) {
-    Eigen::Vector3d size = randomVector(random, 0.3, 1.2), direction = randomVector(random, -1, 1).normalized();
-    switch (kind) {
-      case 0:  // a row of boxes along the diagonal
-        place = 0.3 * double(i) * Eigen::Vector3d::Ones();
-        break;
-      case 1:  // a random path with steps of all lengths
-        place += 0.5 * random.logUniform(1.0, 1000.0) * (random.chance(0.05) ? 1.0 : 0.01) * direction;
-        break;
-      case 2:  // boxes are denser near the center
-        place = random.logUniform(1e-2, 1e4) * direction;
-        size *= 0.02 * place.norm() + 1e-3;
-        break;
-      case 3:  // heaps of boxes, single boxes far away, and huge boxes that extend over several heaps
-        place = i % 50 == 0 ? randomVector(random, -1e5, 1e5) : 1e3 * double(i % 7) * Eigen::Vector3d(1, -1, 2);
-        place += randomVector(random, -6, 6);
-        if (i % 100 == 7) size *= 3e3;
-        break;
-      default:  // the walls of a building with many floors
-        place = {random.uniform(0, 500), double(i % 3) * 100, double(i % 40) * 40};
-        break;
-    }
-    boxes.push_back(boxAround(place, size));
-  }
-  return boxes;
-}
-
 TEST(HGridWorlds, UnevenWorldsAreRightWithAllThreadsAndWhileBoxesMove) {
   for (int kind = 0; kind < 5; ++kind) {
     for (const int threads : {1, 3}) {
       SCOPED_TRACE("kind " + std::to_string(kind) + ", threads " + std::to_string(threads));
       Random random(unsigned(kind) + 1u);
-      std::vector<Aabb> boxes = unevenWorld(kind, threads == 1 ? 3000 : 40000, random);
+      std::vector<Aabb> boxes = test::unevenWorld(kind, threads == 1 ? 3000 : 40000, random);
       HGrid grid(GridScale::fitting(boxes));
       grid.setThreads(threads);
       std::vector<ProxyId> fixed;

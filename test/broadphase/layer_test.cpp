@@ -68,5 +68,46 @@ TEST(Layer, AFewBoxesShareOneCell) {
   }
 }
 
+/// Claim: a withdrawn box returns to its position exactly if it is in the same cell and within the computed bounds.
+TEST(Layer, AWithdrawnBoxReturnsToItsCell) {
+  constexpr std::uint32_t kCount = 1000;
+  test::Random random(3);
+  std::vector<Aabb> boxes;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    boxes.push_back(test::boxAround(test::randomVector(random, -20, 20), test::randomVector(random, 0.5, 1)));
+  }
+  Workers workers(1);
+  SortScratch scratch;
+  const Machine machine{&kernels::of(bestIsa()), &workers, &scratch};
+  Layer layer;
+  layer.reserve(kCount, kCount, machine);
+  layer.setIds(test::allIds(kCount));
+  layer.sort(boxes, 1.0, machine);
+  std::size_t returned = 0, stayed_away = 0;
+  for (std::uint32_t position = 0; position < kCount; ++position) {
+    Aabb& box = boxes[layer.idAt(position)];
+    EXPECT_FALSE(layer.putBack(position, box)) << "the box is not withdrawn";
+    layer.withdraw(position);
+    const std::uint64_t changes = layer.changes();
+    EXPECT_FALSE(layer.putBack(position, {box.min, box.max + Eigen::Vector3f(2, 0, 0)})) << "the box is too long";
+    const Eigen::Vector3f far(100, 100, 100);
+    EXPECT_FALSE(layer.putBack(position, {box.min + far, box.max + far})) << "the box is outside the bounds";
+    EXPECT_TRUE(layer.isWithdrawn(position));
+    const Eigen::Vector3f way = test::randomVector(random, -0.5, 0.5).cast<float>();
+    const Aabb next{box.min + way, box.max + way};
+    if (layer.putBack(position, next)) {
+      ++returned;
+      box = next;
+    } else {
+      ++stayed_away;
+      EXPECT_TRUE(layer.putBack(position, box)) << "the box did not move";
+    }
+    EXPECT_GT(layer.changes(), changes) << "a tree of the layer would seem valid";
+  }
+  EXPECT_GT(returned, 100u);
+  EXPECT_GT(stayed_away, 100u);
+  layer.checkInvariants(boxes);
+}
+
 }  // namespace
 }  // namespace hgrid

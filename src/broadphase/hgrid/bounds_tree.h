@@ -40,6 +40,9 @@ class BoundsTree {
     return {levels.data(), static_cast<std::uint32_t>(levels.size()), tiers_.data(), tier_count_, per_leaf_};
   }
 
+  /// Returns a leaf of the hierarchy, which must not be empty.
+  kernels::Box leaf(std::uint32_t number) const { return boxAt(tiers_[0], number); }
+
   /// Calls visit(index, box) for each leaf that passes the test, in ascending order.
   /// @param test  called as bool test(const kernels::Box&). If it accepts a box, it must accept every box that contains
   ///              this box.

@@ -284,7 +284,9 @@ bool HGrid::Engine::sortOthers(std::size_t started) {
   // Takes the ids in the order of the layers, because boxes that are near each other are sorted faster one after
   // another.
   moving.clear();
+  std::size_t moved_long_ago = 0;
   for (const LayerNumber number : {kMoving, kLoose}) {
+    moved_long_ago = moving.size();
     const Layer& layer = layers[number];
     for (std::uint32_t i = 0; i < layer.size(); ++i) {
       if (layer.isWithdrawn(i)) continue;
@@ -299,6 +301,9 @@ bool HGrid::Engine::sortOthers(std::size_t started) {
     }
     layer_of[id] = kLoose;
   }
+  for (std::size_t i = moved_long_ago; i < moving.size(); ++i) {
+    if (layer_of[moving[i]] == kMoving && putBack(moving[i])) layer_of[moving[i]] = kResting;
+  }
   moving.erase(std::remove_if(moving.begin(), moving.end(), [this](ProxyId id) { return layer_of[id] != kMoving; }),
                moving.end());
   loose.assign(moved.begin(), moved.end());
@@ -310,6 +315,15 @@ bool HGrid::Engine::sortOthers(std::size_t started) {
   moving_changed = false;
   keepFound();
   kept_moving = kept_dirty = true;
+  return true;
+}
+
+bool HGrid::Engine::putBack(ProxyId id) {
+  Layer& resting = layers[kResting];
+  if (id >= positions().size()) return false;
+  const std::uint32_t position = positions()[id];  // means nothing if the box was not in this layer
+  if (position >= resting.size() || resting.idAt(position) != id || !resting.putBack(position, boxes[id])) return false;
+  --withdrawn;
   return true;
 }
 

@@ -35,8 +35,8 @@ struct SearchTask {
 
 /// Copies of boxes of one level: all boxes that may overlap boxes of another level.
 struct GatheredBoxes {
-  std::vector<std::uint32_t> levels;     // indices of the other levels whose bounds overlap the bounds of a level
-  std::vector<std::uint32_t> positions;  // positions of the copied boxes in their level
+  std::vector<std::uint32_t> levels;  // indices of the other levels whose bounds overlap the bounds of a level
+  std::vector<std::uint32_t> positions, other_positions;  // of boxes of two levels that overlap the other's bounds
   std::vector<float> bounds;
   std::vector<std::uint32_t> ids;
 };
@@ -58,7 +58,8 @@ struct SearchBuffers {
 ///   resting  boxes that did not move for a while; the grid keeps their pairs with resting and fixed boxes
 ///   moving   boxes that moved recently; all of them are sorted again when one of them moves
 ///   loose    boxes that were inserted or moved one at a time; they are few, because they soon join the moving boxes.
-///            If other boxes move each time, these are the boxes that moved the last time
+///            If other boxes move each time, these are the boxes that moved the last time. Most of them then return to
+///            their positions in the resting layer
 ///
 /// "Withdrawn" boxes are still in the arrays of a layer, but searches no longer find them.
 ///
@@ -96,10 +97,13 @@ struct HGrid::Engine {
   /// written the new coordinates to `boxes`. If an allocation fails, the layers are unchanged.
   void sortMoved();
   /// Works like sortMoved() if other boxes move each time: sorts the boxes in `moved` into the loose layer. The boxes
-  /// that were there join the moving layer. Then the next search only looks for the pairs of the loose boxes, because
-  /// the last search has found all others.
+  /// that were there return to the resting layer, or join the moving layer if their old positions cannot hold them.
+  /// Then the next search only looks for the pairs of the loose boxes, because the last search has found all others.
   /// @returns false if the last search did not keep its pairs; then nothing has changed
   bool sortOthers(std::size_t started);
+  /// Puts a box back into the resting layer, if it was withdrawn there and still fits its position.
+  /// @returns whether it did
+  bool putBack(ProxyId id);
   /// Restores `boxes`, `layer_of` and `stored` from the layers, which still hold the boxes from before the change.
   void restoreFromLayers();
   void reserveLayer(LayerNumber layer, std::size_t count);

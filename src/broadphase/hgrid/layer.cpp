@@ -53,6 +53,21 @@ std::size_t threadsFor(std::size_t boxes, const Machine& machine) {
   return std::max<std::size_t>(1, std::min(most, boxes / kWorthAThread));
 }
 
+bool contains(const kernels::Box& outer, const Aabb& inner) {
+  const Eigen::Map<const Eigen::Array3f> min(outer.min), max(outer.max);
+  return (min <= inner.min.array()).all() && (inner.max.array() <= max).all();
+}
+
+/// Returns the index of the cell that contains the minimum corner of a box.
+std::int32_t cellOf(const kernels::Grid& grid, const Aabb& box) {
+  std::int32_t cell = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float number = box.min[axis] * grid.inverse[axis] - grid.origin[axis];
+    cell += grid.steps[axis] * static_cast<std::int32_t>(std::min(number > 0.0f ? number : 0.0f, grid.last[axis]));
+  }
+  return cell;
+}
+
 }  // namespace
 
 void Layer::setIds(const std::vector<ProxyId>& ids) { std::copy(ids.begin(), ids.end(), setIds(ids.size())); }
@@ -408,6 +423,35 @@ void Layer::withdraw(std::uint32_t position) {
   for (std::size_t axis = 3; axis < 6; ++axis) bounds_[axis * stride_ + position] = kNothing;
 }
 
+bool Layer::putBack(std::uint32_t position, const Aabb& box) {
+  if (!isWithdrawn(position) || !fits(position, box)) return false;
+  ++changes_;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    bounds_[axis * stride_ + position] = box.min[static_cast<int>(axis)];
+    bounds_[(axis + 3) * stride_ + position] = box.max[static_cast<int>(axis)];
+  }
+  return true;
+}
+
+/// Returns whether a position can hold a box with these coordinates: whether the box belongs to the cell and the region
+/// of the position, and the bounds that were computed by the last sort contain it.
+bool Layer::fits(std::uint32_t position, const Aabb& box) const {
+  const auto begins_later = [](std::uint32_t place, const kernels::Level& level) { return place < level.begin; };
+  const auto next = std::upper_bound(levels_.begin(), levels_.end(), position, begins_later);
+  const auto number = static_cast<std::size_t>(next - levels_.begin()) - 1;
+  const kernels::Level& level = levels_[number];
+  for (int axis = 0; axis < 3; ++axis) {
+    if (box.max[axis] - box.min[axis] > level.reach[axis]) return false;
+  }
+  if (!contains(level.around, box)) return false;
+  if (isOneRow() && !isFew() && !contains(box_bounds_.leaf(position / BoundsTree::kPerLeaf), box)) return false;
+  const std::int32_t cell = cellOf(level.grid, box);
+  if (position < level.start[cell] || position >= level.start[cell + 1]) return false;
+  if (!isDivided()) return true;
+  const kernels::Region& region = regions().region(regions().regionOf(box.min.data()));
+  return number >= region.first_level && number < region.first_level + region.levels;
+}
+
 std::size_t Layer::bytes() const {
   return (ids_.capacity() + other_ids_.capacity() + start_.capacity()) * sizeof(std::uint32_t) +
          bounds_.capacity() * sizeof(float) + levels_.capacity() * sizeof(kernels::Level) + level_bounds_.bytes() +
@@ -429,16 +473,12 @@ void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
       for (; position < level.start[cell + 1]; ++position) {
         if (isWithdrawn(position)) continue;
         const Aabb& box = boxes[ids_[position]];
-        std::int32_t number[3];
         for (int axis = 0; axis < 3; ++axis) {
           const auto i = static_cast<std::size_t>(axis);
           require(bounds_[i * stride_ + position] == box.min[axis] &&
                       bounds_[(i + 3) * stride_ + position] == box.max[axis],
                   "the layer holds the current coordinates of its boxes");
           require(box.max[axis] - box.min[axis] <= level.reach[axis], "no box is longer than the reach of its level");
-          const float cell_number = box.min[axis] * level.grid.inverse[axis] - level.grid.origin[axis];
-          number[axis] =
-              static_cast<std::int32_t>(std::min(cell_number > 0.0f ? cell_number : 0.0f, level.grid.last[axis]));
         }
         if (isDivided()) {
           const kernels::Region& region = regions().region(regions().regionOf(box.min.data()));
@@ -450,9 +490,7 @@ void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
           require(level.around.min[axis] <= box.min[axis] && box.max[axis] <= level.around.max[axis],
                   "a box is within the bounds of its level");
         }
-        const std::int32_t* const steps = level.grid.steps;
-        require(cell == number[0] * steps[0] + number[1] * steps[1] + number[2] * steps[2],
-                "a box is stored in the cell that contains its minimum corner");
+        require(cell == cellOf(level.grid, box), "a box is stored in the cell that contains its minimum corner");
       }
     }
     require(level.end == position, "a level ends where its last cell ends");
@@ -467,8 +505,7 @@ void Layer::checkBoxBounds() const {
     const std::uint32_t begin = leaf * BoundsTree::kPerLeaf, end = begin + BoundsTree::kPerLeaf;
     for (std::uint32_t i = begin; i < std::min(end, static_cast<std::uint32_t>(count_)); ++i) {
       const Aabb box = boxAt(i);
-      const Eigen::Map<const Eigen::Array3f> min(bounds.min), max(bounds.max);
-      if (!isWithdrawn(i) && !((min <= box.min.array()).all() && (box.max.array() <= max).all()))
+      if (!isWithdrawn(i) && !contains(bounds, box))
         throw std::logic_error("HGrid: this invariant is violated: a box is within the bounds of its leaf");
     }
   };

@@ -57,6 +57,9 @@ class Layer {
   void sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine);
   /// Withdraws the box at a position: searches no longer find it. The position remains unused until the next sort().
   void withdraw(std::uint32_t position);
+  /// Stores a withdrawn box again at its position, with its current coordinates, if the position can hold them: if the
+  /// box is in the same cell as before and within the bounds that the last sort computed. @returns whether it did
+  bool putBack(std::uint32_t position, const Aabb& box);
   bool isWithdrawn(std::uint32_t position) const { return !(bounds_[position] <= bounds_[3 * stride_ + position]); }
 
   /// Returns an array that the caller may use until the next sort(). reserve() keeps its values.
@@ -113,6 +116,7 @@ class Layer {
   void scatter(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads);
   void describe(const SortScratch& scratch);
   void checkBoxBounds() const;
+  bool fits(std::uint32_t position, const Aabb& box) const;
   void widen(std::size_t count);
   void point();
   std::uint32_t* countsOf(std::size_t thread, std::size_t threads, const Machine& machine);
