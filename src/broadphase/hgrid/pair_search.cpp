@@ -130,17 +130,17 @@ void addTask(std::vector<SearchTask>& tasks, const kernels::Level& asking, const
 }
 
 /// Decides in which direction two levels are tested. Returns true if testing boxes of `first` against the cells of
-/// `second` visits fewer rows of cells than testing all boxes of `second` against the cells of `first`.
-/// @param boxes  number of boxes of `first` that would be tested
-bool firstAsks(const kernels::Level& first, std::size_t boxes, const kernels::Level& second) {
+/// `second` visits fewer rows of cells than testing boxes of `second` against the cells of `first`.
+/// @param boxes, others  numbers of boxes of `first` and of `second` that would be tested
+bool firstAsks(const kernels::Level& first, std::size_t boxes, const kernels::Level& second, std::size_t others) {
   return static_cast<double>(boxes) * rowsAsked(first, second) <=
-         static_cast<double>(second.end - second.begin) * rowsAsked(second, first);
+         static_cast<double>(others) * rowsAsked(second, first);
 }
 
 /// Adds tasks that test the boxes of two levels against each other.
 void addAcross(std::vector<SearchTask>& tasks, const kernels::Level& first, const kernels::Level& second) {
   if (first.begin == first.end || second.begin == second.end) return;
-  if (firstAsks(first, first.end - first.begin, second)) {
+  if (firstAsks(first, first.end - first.begin, second, second.end - second.begin)) {
     addTask(tasks, first, &second);
   } else {
     addTask(tasks, second, &first);
@@ -257,30 +257,31 @@ class RegionSearch {
     }
   }
 
-  /// Finds the pairs of two levels. firstAsks() decides which boxes ask. If necessary, the boxes of the smaller level
-  /// that overlap the bounds of the other level are counted for this, because only they would ask.
+  /// Finds the pairs of two levels. Only boxes that overlap the bounds of the other level ask. They are counted, and
+  /// firstAsks() decides which of them ask. They are not counted where that would take longer than it can save.
   void meet(const kernels::Level& a, const kernels::Level& b) {
+    constexpr std::size_t kFew = 8;     // number of boxes; it is cheaper to test so few boxes without a selection
+    constexpr std::size_t kMany = 16;   // if at least so many boxes would ask, it may be worth counting the others ...
+    constexpr std::size_t kTimes = 32;  // ... unless their level has more than this number of times as many boxes
     if (sink_->full || !overlap(a.around, b.around)) return;
     const bool a_is_smaller = a.end - a.begin <= b.end - b.begin;
     const kernels::Level &smaller = a_is_smaller ? a : b, &larger = a_is_smaller ? b : a;
-    if (firstAsks(smaller, smaller.end - smaller.begin, larger)) return ask(smaller, larger);
+    const std::size_t all = smaller.end - smaller.begin, all_others = larger.end - larger.begin;
+    if (all <= kFew && firstAsks(smaller, all, larger, all_others))
+      return kernels_.pairsAcross(&smaller, smaller.begin, smaller.end, &larger, sink_);
     PositionWriter near(gathered_.positions);
     select(smaller, larger, near);
-    if (firstAsks(smaller, near.size(), larger)) {
+    if (near.size() == 0) return;
+    const bool smaller_asks = firstAsks(smaller, near.size(), larger, all_others);
+    if (smaller_asks && (near.size() < kMany || all_others > kTimes * near.size()))
+      return askSome(smaller, near, larger);
+    PositionWriter others(gathered_.other_positions);
+    select(larger, smaller, others);
+    if (firstAsks(smaller, near.size(), larger, others.size())) {
       askSome(smaller, near, larger);
     } else {
-      ask(larger, smaller);
+      askSome(larger, others, smaller);
     }
-  }
-
-  /// Finds the pairs of two levels. Tests only the boxes of `asking` that overlap the bounds of `asked`.
-  void ask(const kernels::Level& asking, const kernels::Level& asked) {
-    constexpr std::uint32_t kFew = 8;  // number of boxes; it is cheaper to test so few boxes without a selection
-    if (asking.end - asking.begin <= kFew)
-      return kernels_.pairsAcross(&asking, asking.begin, asking.end, &asked, sink_);
-    PositionWriter near(gathered_.positions);
-    select(asking, asked, near);
-    askSome(asking, near, asked);
   }
 
   /// Finds the boxes of `asking` that overlap the bounds of `asked`.
