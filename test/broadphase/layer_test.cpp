@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "hgrid_proximity/broadphase/isa.h"
 #include "test/support/expectations.h"
 #include "test/support/worlds.h"
@@ -83,7 +85,7 @@ TEST(Layer, AWithdrawnBoxReturnsToItsCell) {
   layer.reserve(kCount, kCount, machine);
   layer.setIds(test::allIds(kCount));
   layer.sort(boxes, 1.0, machine);
-  std::size_t returned = 0, stayed_away = 0;
+  std::size_t returned = 0, stayed_away = 0, rounded_down = 0;
   for (std::uint32_t position = 0; position < kCount; ++position) {
     Aabb& box = boxes[layer.idAt(position)];
     EXPECT_FALSE(layer.putBack(position, box)) << "the box is not withdrawn";
@@ -92,6 +94,16 @@ TEST(Layer, AWithdrawnBoxReturnsToItsCell) {
     EXPECT_FALSE(layer.putBack(position, {box.min, box.max + Eigen::Vector3f(2, 0, 0)})) << "the box is too long";
     const Eigen::Vector3f far(100, 100, 100);
     EXPECT_FALSE(layer.putBack(position, {box.min + far, box.max + far})) << "the box is outside the bounds";
+    for (const kernels::Level& level : layer.levels()) {
+      Aabb longer = box;
+      longer.max.x() = std::nextafter(box.min.x() + level.reach[0], 100.0f);
+      if (longer.max.x() - longer.min.x() > level.reach[0]) continue;
+      if (double(longer.max.x()) - double(longer.min.x()) <= double(level.reach[0])) continue;
+      ++rounded_down;
+      if (position >= level.begin && position < level.end) {
+        EXPECT_FALSE(layer.putBack(position, longer)) << "the box is longer than the reach, but not its rounded side";
+      }
+    }
     EXPECT_TRUE(layer.isWithdrawn(position));
     const Eigen::Vector3f way = test::randomVector(random, -0.5, 0.5).cast<float>();
     const Aabb next{box.min + way, box.max + way};
@@ -104,6 +116,7 @@ TEST(Layer, AWithdrawnBoxReturnsToItsCell) {
     }
     EXPECT_GT(layer.changes(), changes) << "a tree of the layer would seem valid";
   }
+  EXPECT_GT(rounded_down, 10u);
   EXPECT_GT(returned, 100u);
   EXPECT_GT(stayed_away, 100u);
   layer.checkInvariants(boxes);

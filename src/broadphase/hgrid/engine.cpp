@@ -20,6 +20,9 @@ constexpr std::size_t kShareOfMoving = 4;
 constexpr std::size_t kShareOfIdle = 7;
 // If other boxes move each time, and more than one in 16, it is cheaper to sort all boxes each time.
 constexpr std::size_t kShareOfOthers = 16;
+// If so many boxes were tried, and less than an eighth of them could return to the resting layer, trying others costs
+// more than it saves.
+constexpr std::size_t kMostVain = 64, kShareOfReturned = 8;
 
 /// Reserves memory for `count` ids. Like push_back(), it at least doubles the capacity.
 void makeRoom(std::vector<ProxyId>& ids, std::size_t count) {
@@ -269,7 +272,7 @@ bool HGrid::Engine::sortOthers(std::size_t started) {
   std::vector<ProxyId>&moving = members[kMoving], &loose = members[kLoose];
   const std::size_t count = moving.size() + loose.size();  // upper limit: some of them move now
   // A search for pairs does not visit the boxes that only have to be sorted. So they count less than in sortMoved().
-  const double wasted = waste + 0.25 * static_cast<double>(count);
+  const double wasted = waste + 0.6 * static_cast<double>(count);
   if (count > stored / kShareOfMoving || withdrawn + started > stored || wasted > 2.0 * static_cast<double>(stored)) {
     sortAll();
     keep_found = true;
@@ -301,8 +304,14 @@ bool HGrid::Engine::sortOthers(std::size_t started) {
     }
     layer_of[id] = kLoose;
   }
+  std::size_t tried = 0, returned = 0;
   for (std::size_t i = moved_long_ago; i < moving.size(); ++i) {
-    if (layer_of[moving[i]] == kMoving && putBack(moving[i])) layer_of[moving[i]] = kResting;
+    if (layer_of[moving[i]] != kMoving) continue;
+    if (tried >= kMostVain && returned < tried / kShareOfReturned) break;
+    ++tried;
+    if (!putBack(moving[i])) continue;
+    ++returned;
+    layer_of[moving[i]] = kResting;
   }
   moving.erase(std::remove_if(moving.begin(), moving.end(), [this](ProxyId id) { return layer_of[id] != kMoving; }),
                moving.end());

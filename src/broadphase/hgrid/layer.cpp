@@ -82,7 +82,7 @@ void Layer::widen(std::size_t count) {
   std::size_t stride = (count + (bounds_.empty() ? 0 : count / 16) + 2 * kReadBeyond) / 16 * 16;
   // The distance of the arrays must not be near a multiple of a memory page, because then the six coordinates of a box
   // would compete for one set of the cache.
-  if (stride % 1024 < 64) stride += 160;
+  if (stride >= 1024 && stride % 1024 < 64) stride += 160;
   std::vector<float> bounds(6 * stride);
   for (std::size_t i = 0; i < 6 && count_ > 0; ++i) {
     std::copy_n(bounds_.data() + i * stride_, count_, bounds.data() + i * stride);
@@ -106,6 +106,7 @@ void Layer::reserve(std::size_t count, std::size_t ids, const Machine& machine) 
   }
   scratch.keyings.reserve(threads);
   scratch.sums.reserve(threads * threads);
+  plan_.reserve();
   levels_.reserve(CellPlan::kMostLevels);
   level_bounds_.reserveLevels(CellPlan::kMostLevels);
   box_bounds_.reserveBoxes(count);
@@ -440,9 +441,8 @@ bool Layer::fits(std::uint32_t position, const Aabb& box) const {
   const auto next = std::upper_bound(levels_.begin(), levels_.end(), position, begins_later);
   const auto number = static_cast<std::size_t>(next - levels_.begin()) - 1;
   const kernels::Level& level = levels_[number];
-  for (int axis = 0; axis < 3; ++axis) {
-    if (box.max[axis] - box.min[axis] > level.reach[axis]) return false;
-  }
+  // A side that was rounded to the reach may be longer.
+  if (!((box.max - box.min).array() < Eigen::Map<const Eigen::Array3f>(level.reach)).all()) return false;
   if (!contains(level.around, box)) return false;
   if (isOneRow() && !isFew() && !contains(box_bounds_.leaf(position / BoundsTree::kPerLeaf), box)) return false;
   const std::int32_t cell = cellOf(level.grid, box);
@@ -478,7 +478,7 @@ void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
           require(bounds_[i * stride_ + position] == box.min[axis] &&
                       bounds_[(i + 3) * stride_ + position] == box.max[axis],
                   "the layer holds the current coordinates of its boxes");
-          require(box.max[axis] - box.min[axis] <= level.reach[axis], "no box is longer than the reach of its level");
+          require(box.max[axis] - box.min[axis] < level.reach[axis], "no box is longer than the reach of its level");
         }
         if (isDivided()) {
           const kernels::Region& region = regions().region(regions().regionOf(box.min.data()));

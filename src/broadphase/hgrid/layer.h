@@ -55,7 +55,8 @@ class Layer {
   /// @param boxes  all boxes of the grid, by id
   /// @param finest_edge  [m] longest box side of the smallest size class
   void sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine);
-  /// Withdraws the box at a position: searches no longer find it. The position remains unused until the next sort().
+  /// Withdraws the box at a position: searches no longer find it. The position remains unused until
+  /// putBack() or the next sort().
   void withdraw(std::uint32_t position);
   /// Stores a withdrawn box again at its position, with its current coordinates, if the position can hold them: if the
   /// box is in the same cell as before and within the bounds that the last sort computed. @returns whether it did

@@ -54,7 +54,7 @@ class SortByRegion {
 
 }  // namespace
 
-LayerPlan::LayerPlan() {
+void LayerPlan::reserve() {
   grids_.reserve(CellPlan::kMostLevels);
   sides_.reserve(CellPlan::kMostLevels);
   first_cells_.reserve(CellPlan::kMostLevels);
@@ -120,6 +120,7 @@ void LayerPlan::planOneCell() {
 bool LayerPlan::planRegions(const std::vector<Aabb>& boxes, ProxyId* ids, std::uint32_t* scratch, std::size_t count,
                             double finest_edge) {
   LayerPlan divided;
+  divided.reserve();
   divided.tree_ = RegionTree::dividing(boxes, ids, count);
   if (!divided.isDivided()) return false;
   const std::vector<std::size_t> begin = SortByRegion(divided.tree_, boxes, ids, scratch)(count);

@@ -24,13 +24,14 @@ struct BoxCensus {
 class LayerPlan {
  public:
   /// Allocates the memory that a plan with one region needs.
-  LayerPlan();
+  void reserve();
 
   /// Resets the plan to one region without levels.
   void clear();
-  /// Plans one region for the boxes of the planner. Allocates nothing.
+  /// Plans one region for the boxes of the planner. Allocates nothing after reserve().
   void planOneRegion(const CellPlanner& planner, Rows rows);
-  /// Plans one cell for a few boxes. fits() says that this plan is not good for more than 8 boxes. Allocates nothing.
+  /// Plans one cell for a few boxes. fits() says that this plan is not good for more than 8 boxes. Allocates nothing
+  /// after reserve().
   void planOneCell();
   /// Plans several regions for the boxes of `count` ids. In each region, boxes are spread about evenly.
   ///
