@@ -168,7 +168,8 @@ TEST(CellPlan, HasNoLevelsByShapeIfTheLengthsOfRodsDifferMuch) {
 TEST(LayerPlan, IsNoLongerGoodWhenManyBoxesGetARareShape) {
   const std::vector<Aabb> boxes = rods(20000);
   LayerPlan plan;
-  plan.planOneRegion(plannerOf(boxes), Rows::any);
+  plan.reserve(CellPlan::kMostLevels);
+  plan.planOneRegion(plannerOf(boxes).plan(Rows::any));
   std::vector<kernels::Level> levels(plan.levels());
   levels.back().begin = 19900;
   levels.back().end = 20000;
@@ -180,7 +181,8 @@ TEST(LayerPlan, IsNoLongerGoodWhenManyBoxesGetARareShape) {
 TEST(LayerPlan, StaysGoodWhileAFewBoxesTurn) {
   const std::vector<Aabb> boxes = rods(20000);
   LayerPlan plan;
-  plan.planOneRegion(plannerOf(boxes), Rows::any);
+  plan.reserve(CellPlan::kMostLevels);
+  plan.planOneRegion(plannerOf(boxes).plan(Rows::any));
   ASSERT_EQ(plan.levels(), 4u);
   std::vector<float> sizes(16);
   const auto fits = [&] {

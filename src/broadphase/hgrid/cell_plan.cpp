@@ -193,8 +193,8 @@ CellPlan CellPlanner::plan(Rows rows) const {
   return plan;
 }
 
-std::size_t CellPlan::mostCells(std::size_t count) {
-  return static_cast<std::size_t>(kMostCellsPerBox) * count + kSpareCells * std::min(count, kMostLevels);
+std::size_t CellPlan::mostCells(std::size_t count, std::size_t levels) {
+  return static_cast<std::size_t>(kMostCellsPerBox) * count + kSpareCells * levels;
 }
 
 double rowsAsked(const kernels::Level& asking, const kernels::Level& asked) {

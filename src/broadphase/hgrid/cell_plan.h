@@ -50,8 +50,8 @@ struct CellPlan {
   /// layer with several regions.
   static constexpr std::size_t kSpareCells = 64, kSpareCellsOfRegion = 16;
 
-  /// Returns the largest number of cells that a plan for `count` boxes can have.
-  static std::size_t mostCells(std::size_t count);
+  /// Returns the largest number of cells that a plan with `levels` levels for `count` boxes can have.
+  static std::size_t mostCells(std::size_t count, std::size_t levels);
 };
 
 /// Says which rows of cells a plan may have.

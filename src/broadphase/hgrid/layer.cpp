@@ -18,6 +18,7 @@ constexpr std::size_t kReadBeyond = 16;                      // positions that k
 constexpr std::size_t kWorthCopying = std::size_t{1} << 18;  // number of boxes; fewer boxes mostly stay in the cache
 constexpr int kSortsPerPlan = 64;                            // after so many sorts, the layer makes a new plan
 constexpr int kSortsPerCheck = 8;                            // after so many sorts, a layer with one row is checked
+constexpr std::size_t kUsualLevels = 8;                      // most plans of one region have no more levels
 constexpr std::size_t kWorthRegions = 64;                    // a layer with fewer boxes than this has one region
 constexpr std::size_t kWorthOccupancy = 2048;                // for fewer boxes, the bits take too much memory per box
 constexpr double kCrowded = 32.0;     // from this crowding() on, regions are tried; evenly spread boxes have about 2
@@ -95,28 +96,32 @@ void Layer::reserve(std::size_t count, std::size_t ids, const Machine& machine) 
   if (count == 0 || (count <= kFew && stride_ > 0)) return;  // the first call makes room for kFew boxes
   count = std::max(count, kFew);
   SortScratch& scratch = *machine.scratch;
-  const std::size_t threads = threadsFor(count, machine), cells = CellPlan::mostCells(count);
+  const std::size_t threads = threadsFor(count, machine);
   if (ids >= kWorthCopying) growTo(scratch.copies, count);
   growTo(scratch.cells, count);
-  growTo(scratch.counts, (threads - 1) * cells);
+  growTo(scratch.counts, (threads - 1) * plan_.cells());
   scratch.sizes.reserve(threads * 4 * std::max(CellPlan::kMostLevels, plan_.levels()));
-  if (plan_.isDivided()) {
-    scratch.corners.reserve(threads * 8 * plan_.levels());
-    growTo(scratch.counts, (threads - 1) * plan_.cells());
-  }
+  if (plan_.isDivided()) scratch.corners.reserve(threads * 8 * plan_.levels());
   scratch.keyings.reserve(threads);
   scratch.sums.reserve(threads * threads);
-  plan_.reserve();
-  levels_.reserve(CellPlan::kMostLevels);
-  level_bounds_.reserveLevels(CellPlan::kMostLevels);
+  reservePlan(count, std::min(count, kUsualLevels), machine);
   box_bounds_.reserveBoxes(count);
   extendTo(other_ids_, count + kReadBeyond);
   if (extendTo(ids_, count + kReadBeyond)) point();
-  if (extendTo(start_, cells + 1)) point();
   if (count + kReadBeyond > stride_) {
     widen(count);
     point();
   }
+}
+
+/// Allocates the memory for a plan with one region and this number of levels.
+void Layer::reservePlan(std::size_t count, std::size_t levels, const Machine& machine) {
+  const std::size_t cells = CellPlan::mostCells(count, levels);
+  plan_.reserve(levels);
+  levels_.reserve(levels);
+  level_bounds_.reserveLevels(levels);
+  growTo(machine.scratch->counts, (threadsFor(count, machine) - 1) * cells);
+  if (extendTo(start_, cells + 1)) point();
 }
 
 void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine) {
@@ -190,11 +195,11 @@ void Layer::putIntoOneCell(const std::vector<Aabb>& boxes) {
 void Layer::makePlan(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads) {
   if (isDivided() && divide(boxes, finest_edge, machine, threads)) return count(boxes, machine, threads);
   const CellPlanner planner(boxes, ids_.data(), count_, finest_edge, Layout::one_region);
-  plan_.planOneRegion(planner, Rows::any);
+  planOneRegion(planner, Rows::any, machine);
   count(boxes, machine, threads);
   const Rows rows = isRowCrowded(machine, threads) ? Rows::several : Rows::any;
   if (rows == Rows::several) {
-    plan_.planOneRegion(planner, rows);
+    planOneRegion(planner, rows, machine);
     count(boxes, machine, threads);
   }
   const double crowded = count_ >= kWorthRegions ? crowding(machine, threads) : 0.0;
@@ -203,8 +208,20 @@ void Layer::makePlan(const std::vector<Aabb>& boxes, double finest_edge, const M
     count(boxes, machine, threads);
     if (crowding(machine, threads) < kLessCrowded * crowded) return;
   }
-  plan_.planOneRegion(planner, rows);
+  planOneRegion(planner, rows, machine);
   count(boxes, machine, threads);
+}
+
+/// Plans one region. If it has more than the usual number of levels, allocates their memory; if that fails, plans one
+/// cell.
+void Layer::planOneRegion(const CellPlanner& planner, Rows rows, const Machine& machine) {
+  const CellPlan plan = planner.plan(rows);
+  try {
+    reservePlan(count_, plan.levels, machine);
+  } catch (const std::bad_alloc&) {
+    return plan_.planOneCell();
+  }
+  plan_.planOneRegion(plan);
 }
 
 /// Plans several regions and allocates their memory. @returns false if one region is better or if memory ran out

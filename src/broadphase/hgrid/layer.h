@@ -39,8 +39,8 @@ struct Machine {
 /// few boxes are not sorted, because they share one cell. Between two sorts, boxes can be withdrawn.
 ///
 /// The caller calls reserve() before it changes anything, so a failed allocation leaves the layer unchanged. The other
-/// functions that change the layer do not throw. If sort() finds that several regions are better than one, it
-/// allocates memory for these regions. If this allocation fails, the layer has one region.
+/// functions that change the layer do not throw. If sort() finds that several regions are better than one, or that many
+/// levels are, it allocates memory for them. If this allocation fails, the layer has one region, or one cell.
 class Layer {
  public:
   /// Allocates the memory that setIds() and sort() need for `count` boxes. The layer keeps its boxes and their order.
@@ -51,7 +51,7 @@ class Layer {
   /// Sets the number of boxes that the layer holds. The caller then writes their ids to the returned array.
   ProxyId* setIds(std::size_t count);
   /// Sorts the boxes with their current coordinates. Starts from the order of the last sort, because boxes move little.
-  /// After reserve() for at least as many boxes, allocates nothing except memory for additional regions.
+  /// After reserve() for at least as many boxes, allocates nothing except memory for additional regions and levels.
   /// @param boxes  all boxes of the grid, by id
   /// @param finest_edge  [m] longest box side of the smallest size class
   void sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine);
@@ -108,6 +108,8 @@ class Layer {
   static constexpr std::size_t kFew = 16;
 
   bool isFew() const { return count_ <= kFew; }
+  void reservePlan(std::size_t count, std::size_t levels, const Machine& machine);
+  void planOneRegion(const CellPlanner& planner, Rows rows, const Machine& machine);
   void makePlan(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads);
   void putIntoOneCell(const std::vector<Aabb>& boxes);
   bool divide(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads);

@@ -54,12 +54,12 @@ class SortByRegion {
 
 }  // namespace
 
-void LayerPlan::reserve() {
-  grids_.reserve(CellPlan::kMostLevels);
-  sides_.reserve(CellPlan::kMostLevels);
-  first_cells_.reserve(CellPlan::kMostLevels);
-  largest_.reserve(CellPlan::kMostLevels);
-  mean_sides_.reserve(CellPlan::kMostLevels);
+void LayerPlan::reserve(std::size_t levels) {
+  grids_.reserve(levels);
+  sides_.reserve(levels);
+  first_cells_.reserve(levels);
+  largest_.reserve(levels);
+  mean_sides_.reserve(levels);
   region_boxes_.reserve(1);
 }
 
@@ -88,8 +88,7 @@ void LayerPlan::append(const CellPlan& plan) {
   cells_ += plan.cells;
 }
 
-void LayerPlan::planOneRegion(const CellPlanner& planner, Rows rows) {
-  const CellPlan plan = planner.plan(rows);
+void LayerPlan::planOneRegion(const CellPlan& plan) {
   clear();
   append(plan);
   tree_.setLevels(0, 0, static_cast<std::uint32_t>(plan.levels));
@@ -120,7 +119,7 @@ void LayerPlan::planOneCell() {
 bool LayerPlan::planRegions(const std::vector<Aabb>& boxes, ProxyId* ids, std::uint32_t* scratch, std::size_t count,
                             double finest_edge) {
   LayerPlan divided;
-  divided.reserve();
+  divided.reserve(1);
   divided.tree_ = RegionTree::dividing(boxes, ids, count);
   if (!divided.isDivided()) return false;
   const std::vector<std::size_t> begin = SortByRegion(divided.tree_, boxes, ids, scratch)(count);

@@ -23,13 +23,13 @@ struct BoxCensus {
 /// The arrays hold the levels of all regions, region after region.
 class LayerPlan {
  public:
-  /// Allocates the memory that a plan with one region needs.
-  void reserve();
+  /// Allocates the memory for one region with this number of levels.
+  void reserve(std::size_t levels);
 
   /// Resets the plan to one region without levels.
   void clear();
-  /// Plans one region for the boxes of the planner. Allocates nothing after reserve().
-  void planOneRegion(const CellPlanner& planner, Rows rows);
+  /// Sets a plan of one region. Allocates nothing after reserve() for at least as many levels.
+  void planOneRegion(const CellPlan& plan);
   /// Plans one cell for a few boxes. fits() says that this plan is not good for more than 8 boxes. Allocates nothing
   /// after reserve().
   void planOneCell();
