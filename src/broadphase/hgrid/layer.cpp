@@ -495,7 +495,8 @@ void Layer::checkInvariants(const std::vector<Aabb>& boxes) const {
           require(bounds_[i * stride_ + position] == box.min[axis] &&
                       bounds_[(i + 3) * stride_ + position] == box.max[axis],
                   "the layer holds the current coordinates of its boxes");
-          require(box.max[axis] - box.min[axis] < level.reach[axis], "no box is longer than the reach of its level");
+          require(box.max[axis] - box.min[axis] < level.reach[axis] || level.reach[axis] == kFloatInfinity,
+                  "no box is longer than the reach of its level, even if its side was rounded down");
         }
         if (isDivided()) {
           const kernels::Region& region = regions().region(regions().regionOf(box.min.data()));
