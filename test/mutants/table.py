@@ -198,7 +198,7 @@ CORE = [
     ("a box takes the position of another box", ENGINE,
      " || resting.idAt(position) != id", ""),
     ("a box that moves again returns to its position", ENGINE,
-     "layer_of[moving[i]] == kMoving && putBack", "putBack"),
+     "    if (layer_of[moving[i]] != kMoving) continue;\n", ""),
     ("the positions in a layer are not computed again", ENGINE,
      "located[layer] = false;", ""),
     ("a removed box stays in its layer", ENGINE,

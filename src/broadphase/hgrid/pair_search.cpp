@@ -137,6 +137,17 @@ bool firstAsks(const kernels::Level& first, std::size_t boxes, const kernels::Le
          static_cast<double>(others) * rowsAsked(second, first);
 }
 
+/// Returns which share of the volume of a box is within another box. They overlap.
+double shareWithin(const kernels::Box& other, const kernels::Box& box) {
+  double share = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float length = box.max[axis] - box.min[axis];
+    const float within = std::min(box.max[axis], other.max[axis]) - std::max(box.min[axis], other.min[axis]);
+    if (within < length) share *= static_cast<double>(within) / static_cast<double>(length);
+  }
+  return share;
+}
+
 /// Adds tasks that test the boxes of two levels against each other.
 void addAcross(std::vector<SearchTask>& tasks, const kernels::Level& first, const kernels::Level& second) {
   if (first.begin == first.end || second.begin == second.end) return;
@@ -258,11 +269,10 @@ class RegionSearch {
   }
 
   /// Finds the pairs of two levels. Only boxes that overlap the bounds of the other level ask. They are counted, and
-  /// firstAsks() decides which of them ask. They are not counted where that would take longer than it can save.
+  /// firstAsks() decides which of them ask. Those of the larger level are not counted if they are likely too many.
   void meet(const kernels::Level& a, const kernels::Level& b) {
-    constexpr std::size_t kFew = 8;     // number of boxes; it is cheaper to test so few boxes without a selection
-    constexpr std::size_t kMany = 16;   // if at least so many boxes would ask, it may be worth counting the others ...
-    constexpr std::size_t kTimes = 32;  // ... unless their level has more than this number of times as many boxes
+    constexpr std::size_t kFew = 8;  // number of boxes; it is cheaper to test so few boxes without a selection
+    constexpr std::size_t kMany = 16, kTimes = 8;  // measured
     if (sink_->full || !overlap(a.around, b.around)) return;
     const bool a_is_smaller = a.end - a.begin <= b.end - b.begin;
     const kernels::Level &smaller = a_is_smaller ? a : b, &larger = a_is_smaller ? b : a;
@@ -272,8 +282,13 @@ class RegionSearch {
     PositionWriter near(gathered_.positions);
     select(smaller, larger, near);
     if (near.size() == 0) return;
-    const bool smaller_asks = firstAsks(smaller, near.size(), larger, all_others);
-    if (smaller_asks && (near.size() < kMany || all_others > kTimes * near.size()))
+    // Counting the boxes of the larger level takes time. It is worth it only for many boxes of the smaller level, if
+    // there are not too many to count, and if twice as many as are likely, judged by the volume of the bounds, would
+    // ask in less time.
+    const double likely = 2.0 * shareWithin(smaller.around, larger.around) * static_cast<double>(all_others);
+    const bool is_worth_counting = near.size() >= kMany && all_others <= kTimes * near.size() &&
+                                   !firstAsks(smaller, near.size(), larger, static_cast<std::size_t>(likely));
+    if (!is_worth_counting && firstAsks(smaller, near.size(), larger, all_others))
       return askSome(smaller, near, larger);
     PositionWriter others(gathered_.other_positions);
     select(larger, smaller, others);
