@@ -301,6 +301,36 @@ TEST(HGridFailedAllocation, InAWorldOfRegionsChangesNothingOrMakesOneRegion) {
       << "most allocations are for regions, and the grid must also work without regions";
 }
 
+/// Claim: if there is no memory for many levels, the layer works with one cell. Rods along three axes have four levels.
+TEST(HGridFailedAllocation, OfManyLevelsMakesOneCell) {
+  test::Random random(6);
+  std::vector<Aabb> rods;
+  std::vector<ProxyId> ids;
+  for (ProxyId id = 0; id < 20000; ++id) {
+    Eigen::Vector3d size(0.1, 0.1, 0.1);
+    size[random.below(3)] = 10.0;
+    rods.push_back(test::boxAround(test::randomVector(random, 0, 50), size));
+    ids.push_back(id);
+  }
+  ASSERT_GT(CellPlanner(rods, ids.data(), ids.size(), 1.0, Layout::one_region).plan(Rows::any).levels, 3u);
+  HGrid undisturbed;
+  const std::size_t count = test::allocationsOf([&] { undisturbed.update(ids, rods); });
+  const std::vector<ProxyPair> expected = pairsOf(undisturbed);
+  std::size_t survived = 0;
+  for (std::size_t k = 1; k <= count; ++k) {
+    SCOPED_TRACE("allocation " + std::to_string(k) + " of " + std::to_string(count));
+    HGrid grid;
+    if (test::failsAt(k, test::Failing::one, [&] { grid.update(ids, rods); })) {
+      EXPECT_EQ(grid.size(), 0u);
+      continue;
+    }
+    ++survived;
+    ASSERT_NO_THROW(grid.checkInvariants());
+    ASSERT_TRUE(pairsOf(grid) == expected);
+  }
+  EXPECT_GT(survived, 3u);
+}
+
 /// Claim: a cell plan has at most as many cells as the bound for which the grid reserves memory.
 TEST(HGridFailedAllocation, APlanHasNoMoreCellsThanItsBoundSays) {
   for (int family = 0; family < test::kFamilies; ++family) {

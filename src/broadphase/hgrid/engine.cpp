@@ -278,10 +278,11 @@ bool HGrid::Engine::sortOthers(std::size_t started) {
     keep_found = true;
     return true;
   }
+  // The number of moving boxes varies. If memory for it grows by doubling, the grid soon allocates nothing.
   makeRoom(moving, count);
   makeRoom(loose, moved.size());
-  reserveLayer(kMoving, count);
-  reserveLayer(kLoose, moved.size());
+  reserveLayer(kMoving, moving.capacity());
+  reserveLayer(kLoose, loose.capacity());
   locate(kResting);
   // Nothing below allocates.
   // Takes the ids in the order of the layers, because boxes that are near each other are sorted faster one after

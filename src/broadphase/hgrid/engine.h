@@ -36,7 +36,8 @@ struct SearchTask {
 /// Copies of boxes of one level: all boxes that may overlap boxes of another level.
 struct GatheredBoxes {
   std::vector<std::uint32_t> levels;  // indices of the other levels whose bounds overlap the bounds of a level
-  std::vector<std::uint32_t> positions, other_positions;  // of boxes of two levels that overlap the other's bounds
+  // Positions of boxes of two levels: of those that overlap the bounds of the other level.
+  std::vector<std::uint32_t> positions, other_positions;
   std::vector<float> bounds;
   std::vector<std::uint32_t> ids;
 };

@@ -271,8 +271,9 @@ class RegionSearch {
   /// Finds the pairs of two levels. Only boxes that overlap the bounds of the other level ask. They are counted, and
   /// firstAsks() decides which of them ask. Those of the larger level are not counted if they are likely too many.
   void meet(const kernels::Level& a, const kernels::Level& b) {
-    constexpr std::size_t kFew = 8;  // number of boxes; it is cheaper to test so few boxes without a selection
-    constexpr std::size_t kMany = 16, kTimes = 8;  // measured
+    constexpr std::size_t kFew = 8;    // number of boxes; it is cheaper to test so few boxes without a selection
+    constexpr std::size_t kMany = 16;  // least number of boxes of the smaller level for which the others are counted
+    constexpr std::size_t kTimes = 8;  // the larger level has at most so many times as many boxes if they are counted
     if (sink_->full || !overlap(a.around, b.around)) return;
     const bool a_is_smaller = a.end - a.begin <= b.end - b.begin;
     const kernels::Level &smaller = a_is_smaller ? a : b, &larger = a_is_smaller ? b : a;
@@ -282,9 +283,8 @@ class RegionSearch {
     PositionWriter near(gathered_.positions);
     select(smaller, larger, near);
     if (near.size() == 0) return;
-    // Counting the boxes of the larger level takes time. It is worth it only for many boxes of the smaller level, if
-    // there are not too many to count, and if twice as many as are likely, judged by the volume of the bounds, would
-    // ask in less time.
+    // Counting the boxes of the larger level takes time. It is worth it only if twice as many as are likely, judged by
+    // the volume of the bounds, would ask in less time.
     const double likely = 2.0 * shareWithin(smaller.around, larger.around) * static_cast<double>(all_others);
     const bool is_worth_counting = near.size() >= kMany && all_others <= kTimes * near.size() &&
                                    !firstAsks(smaller, near.size(), larger, static_cast<std::size_t>(likely));
