@@ -9,8 +9,18 @@
 #include <vector>
 
 #include "broadphase/kernels/kernels.h"
+#include "hgrid_proximity/geometry/aabb.h"
 
 namespace hgrid {
+
+/// Returns whether a box contains another one.
+inline bool contains(const kernels::Box& outer, const Aabb& inner) {
+  bool all = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    all = all && outer.min[axis] <= inner.min[axis] && outer.max[axis] >= inner.max[axis];
+  }
+  return all;
+}
 
 /// A hierarchy of the bounds of a layer's levels, or of the bounds of the boxes of one level. A search uses it to find
 /// quickly the few levels or boxes that it needs.

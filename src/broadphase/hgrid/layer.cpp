@@ -54,11 +54,6 @@ std::size_t threadsFor(std::size_t boxes, const Machine& machine) {
   return std::max<std::size_t>(1, std::min(most, boxes / kWorthAThread));
 }
 
-bool contains(const kernels::Box& outer, const Aabb& inner) {
-  const Eigen::Map<const Eigen::Array3f> min(outer.min), max(outer.max);
-  return (min <= inner.min.array()).all() && (inner.max.array() <= max).all();
-}
-
 /// Returns the index of the cell that contains the minimum corner of a box.
 std::int32_t cellOf(const kernels::Grid& grid, const Aabb& box) {
   std::int32_t cell = 0;

@@ -30,8 +30,8 @@ class LayerPlan {
   void clear();
   /// Sets a plan of one region. Allocates nothing after reserve() for at least as many levels.
   void planOneRegion(const CellPlan& plan);
-  /// Plans one cell for a few boxes. fits() says that this plan is not good for more than 8 boxes. Allocates nothing
-  /// after reserve().
+  /// Plans one cell, for a few boxes, or because there is no memory for a better plan. fits() says that it is not good
+  /// for more than 8 boxes. Allocates nothing after reserve().
   void planOneCell();
   /// Plans several regions for the boxes of `count` ids. In each region, boxes are spread about evenly.
   ///

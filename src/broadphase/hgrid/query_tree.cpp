@@ -256,15 +256,6 @@ class Builder {
   std::vector<kernels::TreeBlock>&inner_, &leaves_;
 };
 
-/// Returns whether a box contains another one.
-bool contains(const kernels::Box& outer, const Aabb& inner) {
-  bool all = true;
-  for (int axis = 0; axis < 3; ++axis) {
-    all = all && outer.min[axis] <= inner.min[axis] && outer.max[axis] >= inner.max[axis];
-  }
-  return all;
-}
-
 }  // namespace
 
 void QueryTree::build(const Layer& layer) {
