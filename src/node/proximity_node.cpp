@@ -22,6 +22,12 @@ std::uint64_t newEpoch() {
   return static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
 }
 
+/// Returns a copy of a node handle whose callbacks go to `queue`.
+ros::NodeHandle withQueue(ros::NodeHandle node, ros::CallbackQueueInterface& queue) {
+  node.setCallbackQueue(&queue);
+  return node;
+}
+
 }  // namespace
 
 ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
@@ -33,6 +39,7 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       query_threads_(node, private_node),
       batch_threads_(node, private_node),
       admin_thread_(node, private_node),
+      quick_queries_(*query_threads_.privateNode().getCallbackQueue()),
       commons_{readSettings(private_node), std::move(narrow_phase), {}, {}},
       state_(commons_),
       world_(std::make_shared<const Settings>(commons_.settings), ros::Time::isSimTime(), newEpoch(), commons_.ledger,
@@ -54,8 +61,8 @@ ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle&
       guard_(batch_threads_.privateNode(), commons_, world_.transforms().lookup()),
       path_topics_(node, commons_, guard_, [this] { return tick_loop_.newest(); }),
       services_(
-          query_threads_.privateNode(), batch_threads_.privateNode(), admin_thread_.privateNode(), commons_,
-          [this] { return tick_loop_.newest(); }, prepareObstacles(),
+          withQueue(private_node, quick_queries_), query_threads_.privateNode(), batch_threads_.privateNode(),
+          admin_thread_.privateNode(), commons_, [this] { return tick_loop_.newest(); }, prepareObstacles(),
           [this](const TickJobs::Job& job) { return changeWorld(job); }, world_.transforms().lookup(), history_,
           loading_, state_, guard_, stopwatch_, sketch_),
       moveit_(
@@ -94,6 +101,7 @@ void ProximityNode::stop() {
   trackers_.stop();
   path_topics_.stop();
   tick_thread_.stop();
+  quick_queries_.stop();
   query_threads_.stop();
   batch_threads_.stop();
   admin_thread_.stop();

@@ -20,6 +20,7 @@
 #include "node/loading/loading.h"
 #include "node/moveit/moveit_interface.h"
 #include "node/publishers/publishers.h"
+#include "node/quick_callbacks.h"
 #include "node/reconfigure/reconfigure_service.h"
 #include "node/services/node_services.h"
 #include "node/state/state_keeper.h"
@@ -33,7 +34,8 @@ namespace hgrid {
 /// threads, which do not wait for each other:
 ///
 /// - the tick thread reads transforms, computes the ticks and publishes them;
-/// - the query threads, as many as ~query_threads says, answer queries from the newest tick;
+/// - the query threads, as many as ~query_threads says, answer queries from the newest tick; the thread of roscpp that
+///   receives answers short ones itself;
 /// - the batch threads, as many as ~batch_threads says, answer requests with thousands of questions, which may take
 ///   seconds;
 /// - the admin thread loads robots and maps, serves requests that change the world, publishes diagnostics and markers.
@@ -59,6 +61,7 @@ class ProximityNode {
   // Each part uses only the parts that are declared above it.
   std::atomic<bool> stopping_{false};
   CallbackThreads tick_thread_, query_threads_, batch_threads_, admin_thread_;
+  QuickCallbacks quick_queries_;
   Commons commons_;
   QuerySketch sketch_;
   StateKeeper state_;

@@ -43,6 +43,7 @@ RIVALS = "node/tf/frame_rivals.cpp"
 FRAMES = "node/tf/frame_table.cpp"
 INTAKE = "node/tf/tf_intake.cpp"
 QUEUE = "node/tf/tf_queue.cpp"
+QUICK = "node/quick_callbacks.cpp"
 NEWS = "node/tf/tf_news.cpp"
 CLOCKS = "node/tf/publisher_clocks.cpp"
 PACE = "node/tick/tick_pace.cpp"
@@ -452,6 +453,18 @@ NODE = [
      "if (moved || !(pose == history(number).newest().parent_from_frame)) ++static_revision_;", ""),
     ("a stamp that is sent twice with another parent is no conflict", INTAKE,
      "rivals_.contradict(number, holderOf(number), arrival.claim(), arrival.reading);", ""),
+    ("a callback runs at once while another thread answers", QUICK,
+     "|| *passed_ > 0 ||", "||"),
+    ("a callback that takes long is lost", QUICK,
+     "    done = false;", "    done = true;"),
+    ("a client that does not wait keeps the receiving thread busy", QUICK,
+     " || Clock::now() - ended_ < kPause)", ")"),
+    ("a callback runs within another one", QUICK,
+     "stopped_ || running_ ||", "stopped_ ||"),
+    ("a callback runs after the stop", QUICK,
+     "!lock || stopped_ ||", "!lock ||"),
+    ("a callback that has ended still counts", QUICK,
+     "    --*count_;", ""),
     ("a flood fills the queue of transforms forever", QUEUE,
      "lane.bytes -= chargeOf(oldest);", ""),
     ("a flood of transforms drops the newest message as well", QUEUE,

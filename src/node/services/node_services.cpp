@@ -8,15 +8,16 @@
 
 namespace hgrid {
 
-NodeServices::NodeServices(const ros::NodeHandle& query_node, const ros::NodeHandle& batch_node,
-                           const ros::NodeHandle& admin_node, Commons& commons, NewestTick newest,
-                           PrepareObstacles prepare_obstacles, ChangeWorld change_world,
+NodeServices::NodeServices(const ros::NodeHandle& quick_node, const ros::NodeHandle& query_node,
+                           const ros::NodeHandle& batch_node, const ros::NodeHandle& admin_node, Commons& commons,
+                           NewestTick newest, PrepareObstacles prepare_obstacles, ChangeWorld change_world,
                            const TransformLookup& transforms, const TickHistory& history, Loading& loading,
                            StateKeeper& state, Guard& guard, Stopwatch& stopwatch, QuerySketch& sketch)
-    : questions_(query_node, newest, commons.ledger),
+    : quick_questions_(quick_node, newest, commons.ledger),
+      questions_(query_node, newest, commons.ledger),
       batch_questions_(batch_node, newest, commons.ledger),
       changes_(admin_node, newest, commons.ledger),
-      query_(questions_, commons.settings.params, transforms, history, commons.narrow_phase, sketch),
+      query_(quick_questions_, questions_, commons.settings.params, transforms, history, commons.narrow_phase, sketch),
       batches_(batch_questions_, commons.settings.params, transforms, history, leases_, commons.narrow_phase),
       fields_(batch_questions_, commons.settings.params, transforms, history, leases_, commons.narrow_phase),
       states_(batch_questions_, commons.settings.params, transforms, leases_, commons.narrow_phase),

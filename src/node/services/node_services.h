@@ -31,14 +31,16 @@ namespace hgrid {
 /// change the world or read and change the rules.
 class NodeServices {
  public:
+  /// @param quick_node  private node handle of a QuickCallbacks
   /// @param query_node  private node handle of the threads that serve queries
   /// @param batch_node  private node handle of the threads that serve requests with thousands of questions
   /// @param admin_node  private node handle of the thread that serves requests that change the world
   /// All other parameters must outlive this object.
-  NodeServices(const ros::NodeHandle& query_node, const ros::NodeHandle& batch_node, const ros::NodeHandle& admin_node,
-               Commons& commons, NewestTick newest, PrepareObstacles prepare_obstacles, ChangeWorld change_world,
-               const TransformLookup& transforms, const TickHistory& history, Loading& loading, StateKeeper& state,
-               Guard& guard, Stopwatch& stopwatch, QuerySketch& sketch);
+  NodeServices(const ros::NodeHandle& quick_node, const ros::NodeHandle& query_node, const ros::NodeHandle& batch_node,
+               const ros::NodeHandle& admin_node, Commons& commons, NewestTick newest,
+               PrepareObstacles prepare_obstacles, ChangeWorld change_world, const TransformLookup& transforms,
+               const TickHistory& history, Loading& loading, StateKeeper& state, Guard& guard, Stopwatch& stopwatch,
+               QuerySketch& sketch);
 
   /// Drops the ticks of ended leases, and the checkers that no request has used for a second. Any thread may call this.
   /// @param epoch  the present epoch
@@ -48,7 +50,7 @@ class NodeServices {
   }
 
  private:
-  ServiceEnvelope questions_, batch_questions_, changes_;
+  ServiceEnvelope quick_questions_, questions_, batch_questions_, changes_;
   Leases leases_;
   QueryServices query_;
   BatchService batches_;

@@ -2,12 +2,16 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/services/query_services.h"
 
+#include <algorithm>
+#include <chrono>
 #include <optional>
 #include <utility>
 
 #include "node/messages/from_messages.h"
 #include "node/messages/hit_messages.h"
+#include "node/queries/quick_query.h"
 #include "node/queries/request_checks.h"
+#include "node/quick_turn.h"
 
 namespace hgrid {
 namespace {
@@ -36,6 +40,14 @@ std::string summaryOf(const QueryAnswer& found, const Snapshot& snapshot, std::o
   return "HIT: " + std::to_string(found.total) + (found.total == 1 ? " body" : " bodies") + first;
 }
 
+/// Returns when a query must end its search. @throws Refusal what deadlineOf() throws
+std::optional<std::chrono::steady_clock::time_point> endOf(double max_time) {
+  const auto asked = deadlineOf(max_time);
+  if (!QuickTurn::here()) return asked;
+  const auto quick = std::chrono::steady_clock::now() + kQuickSearch;
+  return asked ? std::min(*asked, quick) : quick;
+}
+
 /// Returns the name of the body whose allowed pairs respect_allowed leaves out: as_body. If as_body is empty in a
 /// request of query_nearest, this is the body from which the query measures.
 template <class Request>
@@ -57,12 +69,14 @@ void outdate(QueryAnswer& found, const AnswerTick& tick) {
 
 }  // namespace
 
-QueryServices::QueryServices(ServiceEnvelope& envelope, const Params& params, const TransformLookup& transforms,
-                             const TickHistory& history, std::shared_ptr<NarrowPhase> narrow_phase, QuerySketch& sketch)
+QueryServices::QueryServices(ServiceEnvelope& quick, ServiceEnvelope& envelope, const Params& params,
+                             const TransformLookup& transforms, const TickHistory& history,
+                             std::shared_ptr<NarrowPhase> narrow_phase, QuerySketch& sketch)
     : params_(params), transforms_(transforms), history_(history), narrow_phase_(std::move(narrow_phase)) {
-  serve<msg::QuerySphere>(envelope, "query_sphere", [&sketch](const auto& request, const PreparedQuery& question) {
+  serve<msg::QuerySphere>(quick, "query_sphere", [&sketch](const auto& request, const PreparedQuery& question) {
     const Sphere sphere{question.world_from_frame * fromPoint(request.center), request.radius};
     QueryAnswer found = query(question.snapshot, sphere, question.scope);
+    QuickTurn::require(found.examined_all);
     sketch.show(sphere, found.verdict);
     return found;
   });
@@ -95,20 +109,18 @@ void QueryServices::answer(ServiceCall<Service>& call, const Ask& ask) const {
   const auto& request = call.request;
   call.tick.snapshot();  // throws while there is no world
   const std::shared_ptr<const Tick> newest = call.tick.get();
+  const std::string as_body = asBody(request);
+  const QueryOptions options{
+      request.header.frame_id,      request.include, request.exclude,        request.limit, request.exact != 0,
+      request.respect_allowed != 0, as_body,         endOf(request.max_time)};
+  // The history may have to make a past tick again, which takes long.
+  QuickTurn::require(!namesItsTime(request.header.stamp) && mayBeQuick(options, *newest));
   call.answerFrom(history_.at(request.header.stamp, newest));
   const Snapshot& snapshot = call.tick.snapshot();
-  const std::string as_body = asBody(request);
-  const QueryOptions options{request.header.frame_id,
-                             request.include,
-                             request.exclude,
-                             request.limit,
-                             request.exact != 0,
-                             request.respect_allowed != 0,
-                             as_body,
-                             deadlineOf(request.max_time)};
   const PreparedQuery question = prepare(options, *call.tick.get(), params_, transforms_, *narrow_phase_);
 
   QueryAnswer found = ask(request, question);
+  QuickTurn::require(found.hits.size() <= kQuickHits);
   if (!namesItsTime(request.header.stamp)) outdate(found, call.tick);
   if (!question.frame.empty()) call.response.header.frame_id = question.frame;
   msg::Answer& result = call.response.answer;

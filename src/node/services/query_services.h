@@ -24,10 +24,13 @@ namespace hgrid {
 class QueryServices {
  public:
   /// All objects that are passed by reference must outlive this object.
+  /// @param quick       serves ~query_sphere; may call it in a QuickTurn
+  /// @param envelope    serves the others
   /// @param transforms  used to look up the frames of the queries
   /// @param sketch      receives the newest sphere and segment, so that ~markers can show them
-  QueryServices(ServiceEnvelope& envelope, const Params& params, const TransformLookup& transforms,
-                const TickHistory& history, std::shared_ptr<NarrowPhase> narrow_phase, QuerySketch& sketch);
+  QueryServices(ServiceEnvelope& quick, ServiceEnvelope& envelope, const Params& params,
+                const TransformLookup& transforms, const TickHistory& history,
+                std::shared_ptr<NarrowPhase> narrow_phase, QuerySketch& sketch);
 
  private:
   /// Serves one kind of query. @param ask  function (const Request&, const PreparedQuery&) that returns the QueryAnswer

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "hgrid_proximity/refusal.h"
+#include "node/quick_turn.h"
 #include "node/wire/message_walk.h"
 
 namespace hgrid {
@@ -23,8 +24,9 @@ class Checked {
   Checked() = default;
   explicit Checked(Message value) : value_(std::move(value)) {}
 
-  /// Checks and deserializes the bytes of a message.
+  /// Checks and deserializes the bytes of a message. @throws TakesLong in a QuickTurn if there are more than kShort
   void read(const std::uint8_t* bytes, std::size_t size) {
+    QuickTurn::require(size <= kShort);
     flaw_ = flawOf<Message>(bytes, size);
     if (!flaw_.empty()) return;
     // IStream requires a non-const pointer, but reading does not write to the bytes.
@@ -38,6 +40,8 @@ class Checked {
   }
 
  private:
+  static constexpr std::size_t kShort = 1024;  // [bytes] reading this many takes a few microseconds at most
+
   Message value_;
   std::string flaw_;
 };

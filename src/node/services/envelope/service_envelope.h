@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "node/diagnostics/ledger.h"
+#include "node/quick_turn.h"
 #include "node/services/envelope/answer_tick.h"
 #include "node/services/envelope/reply.h"
 #include "node/services/guarded.h"
@@ -46,8 +47,10 @@ struct ServiceCall {
 /// - fills `header`, `world` and `success` of the response,
 /// - turns a Refusal or any other exception of the work into a code,
 /// - counts "<counter>.asked", "<counter>.refused.<CODE>" and "<counter>.failed.<CODE>".
+/// - counts "<counter>.quick" if a QuickTurn answered it.
 ///
-/// Callbacks run on the threads that serve the queue of the node handle.
+/// Callbacks run on the threads that serve the queue of the node handle. In a QuickTurn, a request that is refused or
+/// fails throws TakesLong and counts nothing; the thread that answers it again refuses it.
 class ServiceEnvelope {
  public:
   template <class Service>
@@ -78,22 +81,39 @@ class ServiceEnvelope {
         event.getResponse() = blank;
         answer<Service>(event, counters, work);
       };
+      if (QuickTurn::here()) return answeredQuickly(answered);
       return !guarded(ledger_, counters.failed.c_str(), answered);  // false: roscpp reports a failed call
     };
     return node_.advertiseService<Event>(name, callback);
   }
 
  private:
+  /// Answers in a QuickTurn. @throws TakesLong after any error, so that another thread answers, counts and logs.
+  /// roscpp would handle a std::exception itself, and would send its text as the answer.
+  template <class Answer>
+  static bool answeredQuickly(const Answer& answer) {
+    try {
+      answer();
+    } catch (...) {
+      throw TakesLong();
+    }
+    return true;
+  }
+
   struct Counters {
     explicit Counters(const std::string& counter)
-        : asked(counter + ".asked"), refused(counter + ".refused"), failed(counter + ".failed") {}
-    std::string asked, refused, failed;
+        : asked(counter + ".asked"),
+          quick(counter + ".quick"),
+          refused(counter + ".refused"),
+          failed(counter + ".failed") {}
+    std::string asked, quick, refused, failed;
   };
 
   template <class Service, class Event>
   void answer(const Event& event, const Counters& counters, const Work<Service>& work) const {
     typename Service::Response& response = event.getResponse();
-    ledger_.count(counters.asked);
+    const bool is_quick = QuickTurn::here();
+    if (!is_quick) ledger_.count(counters.asked);
     AnswerTick tick(newest_());
     std::shared_ptr<const Tick> written = tick.get();
     writeTick(tick, response);
@@ -102,12 +122,17 @@ class ServiceEnvelope {
       writeSuccess(response);
       work(call);
     } catch (const Refusal& refusal) {
+      QuickTurn::require(false);  // logging can take long
       writeRefusal(refusal, false, response);
       ledger_.refuse(counters.refused, refusal);
     } catch (...) {
+      QuickTurn::require(false);
       writeRefusal(ledger_.fault(counters.failed.c_str()), true, response);
     }
     if (tick.get() != written) writeTick(tick, response);
+    if (!is_quick) return;
+    ledger_.count(counters.asked);  // not before: otherwise a request that another thread answers would count twice
+    ledger_.count(counters.quick);
   }
 
   ros::NodeHandle node_;
