@@ -8,6 +8,7 @@
 #include "node/quick_turn.h"
 
 namespace hgrid {
+
 /// A callback that was passed on. It counts for as long as it exists. A callback queue destroys it after its call.
 class QuickCallbacks::Passed : public ros::CallbackInterface {
  public:
