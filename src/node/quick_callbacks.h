@@ -18,11 +18,12 @@ namespace hgrid {
 ///
 /// Waking a thread can take longer than a short query. If all processors are busy, it takes milliseconds.
 ///
-/// A callback runs at once only if no callback that was passed on is waiting or running. This prevents that two threads
-/// wait for each other in roscpp. It locks two mutexes of one connection in both orders:
-/// TransportTCP::socketUpdate() keeps one locked while it runs a callback here, which then writes its answer with the
-/// other one. Connection::writeTransport() keeps the other one locked at its end, in the thread that wrote the answer
-/// before.
+/// A callback runs at once only if no callback that was passed on is waiting or running. Otherwise two threads could
+/// wait for each other, because roscpp locks two mutexes of a connection in both orders:
+/// - The receiving thread locks the mutex of the transport in TransportTCP::socketUpdate() and runs the callback. The
+///   callback writes its answer, for which it locks the mutex of the write callback.
+/// - A thread that has just written an answer locks the mutex of the write callback at the end of
+///   Connection::writeTransport(). Then it locks the mutex of the transport.
 class QuickCallbacks : public ros::CallbackQueueInterface {
  public:
   /// No callback runs at once within this time after another one. Otherwise a client that sends requests without

@@ -24,7 +24,7 @@ namespace hgrid {
 class QueryServices {
  public:
   /// All objects that are passed by reference must outlive this object.
-  /// @param quick       serves ~query_sphere; may call it in a QuickTurn
+  /// @param quick       serves ~query_sphere; its requests may be answered in a QuickTurn
   /// @param envelope    serves the others
   /// @param transforms  used to look up the frames of the queries
   /// @param sketch      receives the newest sphere and segment, so that ~markers can show them

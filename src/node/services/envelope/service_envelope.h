@@ -47,7 +47,7 @@ struct ServiceCall {
 /// - fills `header`, `world` and `success` of the response,
 /// - turns a Refusal or any other exception of the work into a code,
 /// - counts "<counter>.asked", "<counter>.refused.<CODE>" and "<counter>.failed.<CODE>".
-/// - counts "<counter>.quick" if a QuickTurn answered it.
+/// - counts "<counter>.quick" if it was answered in a QuickTurn, which is in the thread that received it.
 ///
 /// Callbacks run on the threads that serve the queue of the node handle. In a QuickTurn, a request that is refused or
 /// fails throws TakesLong and counts nothing; the thread that answers it again refuses it.
