@@ -22,6 +22,11 @@ PoseSample interpolated(const PoseSample& from, const PoseSample& to, Time time)
 
 const PoseSample FrameHistory::kNoSample;
 
+void FrameHistory::prefetchNewest() const {
+  const char* const sample = reinterpret_cast<const char*>(&newest());
+  for (std::size_t at = 0; at < 2 * sizeof(PoseSample); at += 64) __builtin_prefetch(sample + at, 1);
+}
+
 void FrameHistory::fix(const PoseSample& sample) {
   if (samples_.empty()) {
     samples_.push_back(sample);

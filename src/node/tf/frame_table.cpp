@@ -2,9 +2,24 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/tf/frame_table.h"
 
+#include <algorithm>
+#include <cstring>
+
 #include "hgrid_proximity/refusal.h"
 
 namespace hgrid {
+
+FrameTable::Entry::Entry(const std::string& full_name)
+    : name(&full_name), length(static_cast<std::uint32_t>(full_name.size())) {
+  std::copy_n(full_name.begin(), std::min(full_name.size(), begin.size()), begin.begin());
+}
+
+bool FrameTable::Entry::isNamed(std::string_view other) const {
+  if (other.size() != length || std::memcmp(begin.data(), other.data(), std::min(other.size(), begin.size())) != 0) {
+    return false;
+  }
+  return other.size() <= begin.size() || other == *name;
+}
 
 std::uint32_t FrameTable::find(std::string_view name) const {
   const auto found = numbers_.find(name);
@@ -15,17 +30,14 @@ std::uint32_t FrameTable::find(std::string_view name) const {
 /// first tries the frame that came next the last time.
 std::uint32_t FrameTable::guess(std::string_view child) const {
   const std::uint32_t next = last_ == kNone ? kNone : entries_[last_].next;
-  return next != kNone && entries_[next].name == child ? next : find(child);
+  return next != kNone && entries_[next].isNamed(child) ? next : find(child);
 }
 
 std::uint32_t FrameTable::add(std::string_view name) {
   const auto number = static_cast<std::uint32_t>(entries_.size());
-  Entry entry;
-  entry.name = name;
-  entry.needed = needed_.count(name) != 0;
   if (entries_.size() == entries_.capacity()) entries_.reserve(2 * entries_.size() + 8);
-  numbers_.emplace(entry.name, number);
-  entries_.push_back(std::move(entry));  // does not throw, because the capacity was reserved above
+  const auto place = numbers_.emplace(name, number).first;
+  entries_.emplace_back(place->first).needed = needed_.count(name) != 0;  // does not throw: there is room for it
   ++revision_;
   return number;
 }
@@ -111,12 +123,12 @@ void FrameTable::need(const std::vector<std::string>& names) {
 const std::string& FrameTable::parentName(std::uint32_t frame) const {
   static const std::string none;
   const std::uint32_t parent = entries_[frame].parent;
-  return parent == kNone ? none : entries_[parent].name;
+  return parent == kNone ? none : *entries_[parent].name;
 }
 
 bool FrameTable::isInParent(std::uint32_t frame, std::string_view parent) const {
   const std::uint32_t number = entries_[frame].parent;
-  return number != kNone && entries_[number].name == parent;
+  return number != kNone && entries_[number].isNamed(parent);
 }
 
 }  // namespace hgrid

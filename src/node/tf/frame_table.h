@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -27,6 +28,8 @@ class FrameTable {
   /// @param max_frames  ~max_frames: at most this many frames may have a parent, and at most this many may be a parent.
   ///                    As many needed frames may have a parent or be a parent, in addition.
   explicit FrameTable(std::size_t max_frames) : max_frames_(max_frames) {}
+  FrameTable(const FrameTable&) = delete;
+  FrameTable& operator=(const FrameTable&) = delete;
 
   /// Returns the number of the frame `child`, which a transform places in `parent`. A new child gets a number.
   /// @throws Refusal limit if there is no room for another child or parent
@@ -52,7 +55,7 @@ class FrameTable {
   /// Returns how many frames a transform has placed in a parent.
   std::size_t placed() const { return placed_.all; }
   bool isPlaced(std::uint32_t frame) const { return entries_[frame].placed; }
-  const std::string& name(std::uint32_t frame) const { return entries_[frame].name; }
+  const std::string& name(std::uint32_t frame) const { return *entries_[frame].name; }
   /// Returns the number of the frame's newest parent, or kNone if it has no parent.
   std::uint32_t parent(std::uint32_t frame) const { return entries_[frame].parent; }
   /// Returns the name of the frame's newest parent. Empty: the frame has no parent.
@@ -62,14 +65,21 @@ class FrameTable {
   std::uint64_t revision() const { return revision_; }
 
  private:
-  struct Entry {
-    std::string name;
+  /// A frame. It fills one line of the processor's cache, because again() reads it for each received transform.
+  struct alignas(64) Entry {
+    explicit Entry(const std::string& full_name);
+    bool isNamed(std::string_view other) const;
+
+    const std::string* name;  // in numbers_
+    std::uint32_t length;     // of the name
     std::uint32_t parent = kNone;
     std::uint32_t next = kNone;  // the frame that admit() got right after this one
     bool placed = false;         // whether a transform has placed this frame in a parent
     bool is_parent = false;
     bool needed = false;
+    std::array<char, 41> begin = {};  // first characters of the name; most names fit
   };
+  static_assert(sizeof(Entry) == 64);
   /// How many frames there are of a kind.
   struct Count {
     std::size_t all = 0, needed = 0;

@@ -39,16 +39,11 @@ void TfIntake::take(const std::vector<TransformView>& transforms, bool is_static
   accepted_ = 0;
   newest_stamp_ = Time(0);
   const std::uint64_t before = table().revision(), static_before = static_revision_;
-  const Message message{is_static, publisher, now, ages_.read(now)};
+  Message message{is_static, MessagePublisher(publisher), now, ages_.read(now)};
   {
     const TransformStore::Writing writing(store_);
-    for (const TransformView& transform : transforms) {
-      try {
-        takeOne(transform, message);
-      } catch (const Refusal& refusal) {
-        noteRefusal(refusal, viewWithoutSlash(transform.child), message);
-        if (is_static && refusal.code() == Code::limit) keepLate(transform, publisher);
-      }
+    for (std::size_t begin = 0; begin < transforms.size(); begin += kAhead) {
+      takeSome(&transforms[begin], std::min(kAhead, transforms.size() - begin), message);
     }
   }
   if (table().revision() != before) takeLate(now);  // another frame may be above one that bodies need
@@ -56,6 +51,40 @@ void TfIntake::take(const std::vector<TransformView>& transforms, bool is_static
   if (accepted_ > 0) ledger_.count("tf.accepted", accepted_);
   if (newest_stamp_.count() > 0) publisher_clocks_.note(publisher, newest_stamp_ - now.ros, message.reading);
   if (const std::size_t dropped = store_.takeDropped()) ledger_.count("tf.samples.LIMIT", dropped);
+}
+
+/// Takes at most kAhead transforms.
+void TfIntake::takeSome(const TransformView* transforms, std::size_t count, Message& message) {
+  const std::array<std::uint32_t, kAhead> known = findFrames(transforms, count);
+  const std::uint64_t found_at = table().revision();
+  for (std::size_t i = 0; i < count; ++i) {
+    const TransformView& transform = transforms[i];
+    try {
+      takeOne(transform, message, table().revision() == found_at ? known[i] : kNone);
+    } catch (const Refusal& refusal) {
+      noteRefusal(refusal, viewWithoutSlash(transform.child), message);
+      if (message.is_static && refusal.code() == Code::limit) keepLate(transform, message.publisher.name());
+    }
+  }
+}
+
+/// Returns the number of the frame of each transform, or kNone if the frame is not known in this parent.
+///
+/// Also starts to load what is known about these frames into the processor's cache, from which other work has usually
+/// removed it since the last message. If each frame were loaded only when its transform is taken, the processor would
+/// wait for memory most of the time.
+std::array<std::uint32_t, TfIntake::kAhead> TfIntake::findFrames(const TransformView* transforms, std::size_t count) {
+  std::array<std::uint32_t, kAhead> known;
+  for (std::size_t i = 0; i < count; ++i) {
+    known[i] = store_.again(viewWithoutSlash(transforms[i].parent), viewWithoutSlash(transforms[i].child));
+    if (known[i] == kNone) continue;
+    __builtin_prefetch(&frames_[known[i]], 1);
+    store_.prefetch(known[i]);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (known[i] != kNone) store_.history(known[i]).prefetchNewest();
+  }
+  return known;
 }
 
 void TfIntake::need(const std::vector<std::string>& names, const Moment& now) {
@@ -84,7 +113,8 @@ void TfIntake::takeLate(const Moment& now) {
     late.transform.parent = late.parent;
     late.transform.child = child;
     try {
-      takeOne(late.transform, {true, late.publisher, now, ages_.read(now)});
+      Message message{true, MessagePublisher(late.publisher), now, ages_.read(now)};
+      takeOne(late.transform, message);
       next = late_.begin();
     } catch (const Refusal& refusal) {
       ledger_.refuse("tf.refused", refusal);
@@ -93,13 +123,14 @@ void TfIntake::takeLate(const Moment& now) {
   }
 }
 
-void TfIntake::takeOne(const TransformView& transform, const Message& message) {
+/// @param known  number of the frame if it is already known that its parent is the transform's; otherwise kNone
+void TfIntake::takeOne(const TransformView& transform, Message& message, std::uint32_t known) {
   Arrival arrival{transform, message.publisher, message.now, message.reading, transform.stamp};
   arrival.transform.parent = viewWithoutSlash(transform.parent);
   arrival.transform.child = viewWithoutSlash(transform.child);
-  const std::uint32_t number = admit(arrival, message.is_static);
+  const std::uint32_t number = admit(arrival, message.is_static, known);
   noteTopic(number, message.is_static);
-  arrival.same_publisher = frames_[number].publisher == arrival.publisher;
+  arrival.same_publisher = arrival.publisher.is(frames_[number].publisher);
   if (needsNormalization(transform.rotation)) ledger_.count("tf.renormalised");
   if (message.is_static) {
     takeStatic(number, arrival);
@@ -110,13 +141,15 @@ void TfIntake::takeOne(const TransformView& transform, const Message& message) {
 
 /// A refused transform makes a frame INVALID until a valid one arrives. A static transform is sent only once, so only
 /// the publisher that placed a static frame can make it INVALID, and only on /tf_static.
-void TfIntake::noteRefusal(const Refusal& refusal, std::string_view child, const Message& message) {
+void TfIntake::noteRefusal(const Refusal& refusal, std::string_view child, Message& message) {
   report("tf.refused", refusal);
   const std::uint32_t number = table().find(child);
   if (number == kNone || !table().isPlaced(number)) return;
   Frame& frame = frames_[number];
   const bool is_static = message.is_static;
-  if (history(number).moves() ? !is_static : is_static && frame.publisher == message.publisher) frame.refused = refusal;
+  if (history(number).moves() ? is_static : !is_static || !message.publisher.is(frame.publisher)) return;
+  refusals_.insert_or_assign(number, refusal);
+  frame.refused = true;
 }
 
 /// Counts and logs what is wrong. Writing to the log can take long, so other threads may read meanwhile.
@@ -127,9 +160,9 @@ void TfIntake::report(const char* where, const Refusal& refusal) {
 
 /// Checks a transform, and returns the number of its frame. Allocates the entries of the child and the parent first. So
 /// each numbered frame has an entry, even if memory runs out.
-std::uint32_t TfIntake::admit(Arrival& arrival, bool is_static) {
+std::uint32_t TfIntake::admit(Arrival& arrival, bool is_static, std::uint32_t known) {
   const TransformView& transform = arrival.transform;
-  const std::uint32_t known = store_.again(transform.parent, transform.child);
+  if (known == kNone) known = store_.again(transform.parent, transform.child);
   if (known != kNone) {  // the names were checked when the frame got its parent
     checkValues(transform, is_static, arrival.now, max_future_);
     arrival.same_parent = true;
@@ -154,9 +187,19 @@ void TfIntake::noteTopic(std::uint32_t number, bool is_static) {
                                                     "on only one of them"));
 }
 
-void TfIntake::accept(Frame& frame) {
+void TfIntake::accept(std::uint32_t number) {
   ++accepted_;
-  frame.refused.reset();
+  forgetRefusal(number);
+}
+
+void TfIntake::forgetRefusal(std::uint32_t number) {
+  if (!frames_[number].refused) return;
+  frames_[number].refused = false;
+  refusals_.erase(number);
+}
+
+const Refusal* TfIntake::refusal(std::uint32_t number) const {
+  return frames_[number].refused ? &refusals_.at(number) : nullptr;
 }
 
 /// Ignores the stamp, which has no meaning for a static transform. A frame that moved becomes static again only if no
@@ -173,9 +216,9 @@ void TfIntake::takeStatic(std::uint32_t number, const Arrival& arrival) {
   store_.fix(number, arrival.transform.parent, pose);
   if (!late_.empty()) late_.erase(table().name(number));  // an older transform of the frame
   frame.pace.forgetPeriod();
-  if (!arrival.same_publisher) frame.publisher = arrival.publisher;
+  if (!arrival.same_publisher) frame.publisher = arrival.publisher.shared();
   frame.stray = Time(0);
-  accept(frame);
+  accept(number);
 }
 
 void TfIntake::takeMoving(std::uint32_t number, const Arrival& arrival) {
@@ -239,8 +282,8 @@ void TfIntake::takeRepeated(std::uint32_t number, const Arrival& arrival) {
   report("tf.ignored",
          Refusal(Code::dup_id, "frame '" + printable(table().name(number)) + "' was sent twice with stamp " +
                                    text(seconds(arrival.stamp)) + " s, but with a different " +
-                                   (arrival.same_parent ? "pose" : "parent") + " (by " + printable(arrival.publisher) +
-                                   "); the first one is kept"));
+                                   (arrival.same_parent ? "pose" : "parent") + " (by " +
+                                   printable(arrival.publisher.name()) + "); the first one is kept"));
   if (!arrival.same_parent) {
     frame.claimed = true;
     const TransformStore::Pause pause(store_);  // a contradiction is logged
@@ -265,8 +308,8 @@ void TfIntake::takeNewest(std::uint32_t number, const Arrival& arrival, const St
   frame.pace.noteReceived(arrival.reading, arrival.now.ros);
   news_.note(number, arrival.stamp, arrival.now.ros);
   newest_stamp_ = std::max(newest_stamp_, arrival.stamp);
-  if (!arrival.same_publisher) frame.publisher = arrival.publisher;
-  accept(frame);
+  if (!arrival.same_publisher) frame.publisher = arrival.publisher.shared();
+  accept(number);
   if (!frame.claimed) return;
   if (const auto rival = rivals_.takeWaiting(number, arrival.stamp)) {
     const TransformStore::Pause pause(store_);  // a contradiction is logged
@@ -285,7 +328,7 @@ void TfIntake::takeOlder(std::uint32_t number, const Arrival& arrival) {
   }
   // Not the newest stamp, but also not behind the clock: the frame is still being published.
   if (arrival.stamp >= arrival.now.ros) frame.pace.noteReceived(arrival.reading);
-  accept(frame);
+  accept(number);
 }
 
 /// Handles a transform of a publisher that does not hold the frame. It is compared with the holder's, but not used.
@@ -298,7 +341,7 @@ void TfIntake::takeRival(std::uint32_t number, const Arrival& arrival) {
 FrameRivals::Holder TfIntake::holderOf(std::uint32_t number) const {
   const Frame& frame = frames_[number];
   return {table().name(number),
-          {frame.publisher, table().parentName(number)},
+          {*frame.publisher, table().parentName(number)},
           history(number).newest().stamp,
           [this, number](Time time) { return history(number).at(time); }};
 }
@@ -321,7 +364,7 @@ void TfIntake::forgetMoving() {
   forgetStamps();
   for (std::uint32_t number = 0; number < table().size(); ++number) {
     frames_[number].pace.forgetPeriod();
-    if (history(number).moves()) frames_[number].refused.reset();
+    if (history(number).moves()) forgetRefusal(number);
   }
 }
 

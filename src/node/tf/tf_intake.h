@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +13,7 @@
 #include "node/tf/frame_pace.h"
 #include "node/tf/frame_rivals.h"
 #include "node/tf/publisher_clocks.h"
+#include "node/tf/publisher_name.h"
 #include "node/tf/tf_news.h"
 #include "node/tf/transform_lookup.h"
 #include "node/tf/transform_store.h"
@@ -34,17 +35,19 @@ class TfIntake {
  public:
   static constexpr std::uint32_t kNone = FrameTable::kNone;
 
-  /// What is known about the transforms that place a frame in its parent.
-  struct Frame {
+  /// What is known about the transforms that place a frame in its parent. It fills one line of the processor's cache,
+  /// because take() reads it for each transform.
+  struct alignas(64) Frame {
     FramePace pace;                             // pace of the transforms on /tf
-    std::string publisher;                      // publisher of the newest transform
-    std::optional<Refusal> refused;             // why the newest transform was refused
+    SharedName publisher;                       // publisher of the newest transform
     Time stray{0};                              // stamp of the newest transform on /tf while the frame is static
     bool from_tf = false, from_static = false;  // whether a transform arrived on /tf, or on /tf_static
     bool claimed = false;                       // whether claims() may have an entry for this frame
+    bool refused = false;                       // whether the newest transform was refused; see refusal()
 
     bool hasConflict() const { return from_tf && from_static; }
   };
+  static_assert(sizeof(Frame) == 64);
 
   /// @param max_future   [s] how far a stamp may be ahead of ROS time
   /// @param cache        [s] how long transforms are kept
@@ -86,6 +89,8 @@ class TfIntake {
   /// Returns the names, numbers and parents of all frames.
   const FrameTable& table() const { return store_.table(); }
   const Frame& frame(std::uint32_t number) const { return frames_[number]; }
+  /// Returns why the newest transform of a frame was refused. Null: it was not.
+  const Refusal* refusal(std::uint32_t number) const;
   /// Returns the stored poses of a frame in its parent.
   const FrameHistory& history(std::uint32_t number) const { return store_.history(number); }
   /// Returns a number that increases whenever a static frame gets another pose.
@@ -97,22 +102,24 @@ class TfIntake {
   /// The message of one call of take().
   struct Message {
     bool is_static;
-    const std::string& publisher;
+    MessagePublisher publisher;
     const Moment& now;
     Time reading;
   };
   /// One transform of the message that take() is handling.
   struct Arrival {
     TransformView transform;  // its names begin with no slash
-    const std::string& publisher;
+    MessagePublisher& publisher;
     const Moment& now;
     Time reading, stamp;
     bool same_publisher = false;  // whether the newest transform of the frame has the same publisher
     bool same_parent = false;     // whether the newest transform of the frame has the same parent
 
     FramePose pose() const { return toFramePose(transform); }
-    FrameClaim claim() const { return {publisher, std::string(transform.parent)}; }
+    FrameClaim claim() const { return {publisher.name(), std::string(transform.parent)}; }
   };
+
+  static constexpr std::size_t kAhead = 16;  // number of transforms whose frames are found together
 
   /// How the newest transform of a frame relates to the previous one.
   struct Step {
@@ -120,14 +127,16 @@ class TfIntake {
     bool continues = false;  // as in PoseSample
   };
 
-  void takeOne(const TransformView& transform, const Message& message);
+  std::array<std::uint32_t, kAhead> findFrames(const TransformView* transforms, std::size_t count);
+  void takeSome(const TransformView* transforms, std::size_t count, Message& message);
+  void takeOne(const TransformView& transform, Message& message, std::uint32_t known = kNone);
   void takeStatic(std::uint32_t number, const Arrival& arrival);
   void takeMoving(std::uint32_t number, const Arrival& arrival);
   void takeNewest(std::uint32_t number, const Arrival& arrival, const Step& step);
   void takeOlder(std::uint32_t number, const Arrival& arrival);
   void takeRival(std::uint32_t number, const Arrival& arrival);
   void takeRepeated(std::uint32_t number, const Arrival& arrival);
-  void noteRefusal(const Refusal& refusal, std::string_view child, const Message& message);
+  void noteRefusal(const Refusal& refusal, std::string_view child, Message& message);
   void noteTopic(std::uint32_t number, bool is_static);
   void report(const char* where, const Refusal& refusal);
   bool isStream(Frame& frame, const Arrival& arrival) const;
@@ -135,8 +144,9 @@ class TfIntake {
   bool isFarAhead(Time stamp, const Arrival& arrival) const;
   void changeClaim(std::uint32_t number, const Arrival& arrival);
   FrameRivals::Holder holderOf(std::uint32_t number) const;
-  std::uint32_t admit(Arrival& arrival, bool is_static);
-  void accept(Frame& frame);
+  std::uint32_t admit(Arrival& arrival, bool is_static, std::uint32_t known);
+  void accept(std::uint32_t number);
+  void forgetRefusal(std::uint32_t number);
   void forgetStamps();
   void keepLate(const TransformView& transform, const std::string& publisher);
   void takeLate(const Moment& now);
@@ -153,7 +163,8 @@ class TfIntake {
   AgeClock ages_;
   TransformStore store_;
   TransformLookup lookup_{store_};
-  std::vector<Frame> frames_;  // indexed by frame number
+  std::vector<Frame> frames_;                  // indexed by frame number
+  std::map<std::uint32_t, Refusal> refusals_;  // of the frames whose newest transform was refused
   FrameRivals rivals_;
   TfNews news_;
   PublisherClocks publisher_clocks_;

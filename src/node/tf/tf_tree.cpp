@@ -16,7 +16,7 @@ double ageOf(const FramePace& pace, Time stamp, Time reading) {
 void extend(ChainState& state, const TfIntake& intake, std::uint32_t number, bool upwards, Time reading,
             const AgeLimits& limits) {
   const TfIntake::Frame& frame = intake.frame(number);
-  if (frame.refused && (upwards || state.refused == nullptr)) state.refused = &*frame.refused;
+  if (frame.refused && (upwards || state.refused == nullptr)) state.refused = intake.refusal(number);
   if (frame.hasConflict()) state.conflict = true;
   if (frame.claimed && intake.isContested(number, reading)) state.contested = number;
   const FrameHistory& history = intake.history(number);

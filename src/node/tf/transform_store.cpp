@@ -25,6 +25,12 @@ std::uint32_t TransformStore::admit(std::string_view parent, std::string_view ch
   return table_.admit(parent, child);
 }
 
+void TransformStore::prefetch(std::uint32_t frame) const {
+  const char* const history = reinterpret_cast<const char*>(&histories_[frame]);
+  __builtin_prefetch(history, 1);
+  __builtin_prefetch(history + sizeof(FrameHistory) - 1, 1);
+}
+
 void TransformStore::need(const std::vector<std::string>& names) {
   const Writing writing(*this);
   table_.need(names);

@@ -43,6 +43,8 @@ class TransformStore {
   std::uint32_t admit(std::string_view parent, std::string_view child);
   /// Does the same as FrameTable::again(). That changes nothing that a Reading can see, so it needs no lock.
   std::uint32_t again(std::string_view parent, std::string_view child) { return table_.again(parent, child); }
+  /// Starts to load what is stored of a frame into the processor's cache. Changes nothing.
+  void prefetch(std::uint32_t frame) const;
   /// Does the same as FrameTable::need().
   void need(const std::vector<std::string>& names);
   /// Makes the frame static at this pose in its parent.

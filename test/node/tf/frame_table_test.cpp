@@ -49,6 +49,26 @@ TEST(FrameTable, KnowsTheNewestParent) {
   EXPECT_FALSE(table.isInParent(box, "shelf"));
 }
 
+TEST(FrameTable, TellsNamesOfEveryLengthApart) {
+  for (const std::size_t length : {1, 40, 41, 42, 200}) {
+    FrameTable table(10);
+    const std::string name(length, 'a');
+    std::string last_differs = name;
+    last_differs.back() = 'b';
+    const std::uint32_t first = put(table, "base", name), second = put(table, "base", last_differs);
+    const std::uint32_t longer = put(table, "base", name + "a");
+    for (int repeat = 0; repeat < 2; ++repeat) {  // the second time, each name is the expected one
+      EXPECT_EQ(table.again("base", name), first) << length;
+      EXPECT_EQ(table.again("base", last_differs), second) << length;
+      EXPECT_EQ(table.again("base", name + "a"), longer) << length;
+    }
+    table.setParent(longer, name);
+    EXPECT_EQ(table.again(last_differs, name + "a"), kNone) << length;
+    EXPECT_EQ(table.again(name + "b", name + "a"), kNone) << length;
+    EXPECT_EQ(table.again(name, name + "a"), longer) << length;
+  }
+}
+
 TEST(FrameTable, HasAnotherRevisionOnlyIfAFrameOrAParentIsNew) {
   FrameTable table(10);
   put(table, "base", "arm");

@@ -28,15 +28,18 @@ class TfIntakeTest : public ::testing::Test {
   /// Takes in a transform. @param stamp [s] its stamp. @param now [s] current time; negative: that of the stamp
   void send(double stamp, const Sent& sent = {}, double now = -1.0) {
     tf2_msgs::TFMessage message;
-    message.transforms.resize(1);
-    geometry_msgs::TransformStamped& transform = message.transforms.front();
+    add(message, stamp, sent);
+    const double time = now < 0.0 ? stamp : now;
+    intake_.take(viewsOf(message), sent.is_static, sent.publisher, moment(100.0 + time, time));
+  }
+  static void add(tf2_msgs::TFMessage& message, double stamp, const Sent& sent) {
+    geometry_msgs::TransformStamped transform;
     transform.header.frame_id = sent.parent;
     transform.header.stamp = ros::Time(100.0 + stamp);
     transform.child_frame_id = "arm";
     transform.transform.translation.x = sent.x;
     transform.transform.rotation.w = 1.0;
-    const double time = now < 0.0 ? stamp : now;
-    intake_.take(viewsOf(message), sent.is_static, sent.publisher, moment(100.0 + time, time));
+    message.transforms.push_back(transform);
   }
   /// Publishes "arm" every 20 ms up to a time [s].
   void stream(double end, const Sent& sent = {}) {
@@ -78,7 +81,7 @@ TEST_F(TfIntakeTest, AnotherPublisherHasAPeriodOfItsOwn) {
   stream(1.0);
   EXPECT_NEAR(frame().pace.period(), 0.02, 1e-6);
   send(6.0, {"/other"});
-  EXPECT_EQ(frame().publisher, "/other");
+  EXPECT_EQ(*frame().publisher, "/other");
   EXPECT_EQ(frame().pace.period(), 0.0) << "one transform has no period";
   send(6.5, {"/other"});
   send(7.0, {"/other"});
@@ -91,7 +94,7 @@ TEST_F(TfIntakeTest, TheHolderOfAContestedFrameKeepsItForThreeSeconds) {
     if (contested) send(1.0, {"/rival", "island"});
     EXPECT_EQ(intake_.isContested(number(), s(1.0)), contested);
     send(2.0, {"/rival", "island"});
-    EXPECT_EQ(frame().publisher, contested ? "/robot" : "/rival");
+    EXPECT_EQ(*frame().publisher, contested ? "/robot" : "/rival");
     intake_.forgetMoving();
   }
 }
@@ -124,6 +127,35 @@ TEST_F(TfIntakeTest, AStampThatIsSentTwiceWithTwoParentsIsAConflict) {
   send(1.0, {"/robot", "island"});
   EXPECT_EQ(parent(), "base");
   EXPECT_TRUE(intake_.isContested(number(), s(1.0)));
+}
+
+// The frames of several transforms are found together, before the first of them is taken in.
+TEST_F(TfIntakeTest, AMessageMayMoveAFrameToAnotherParentAndBack) {
+  send(1.0);
+  tf2_msgs::TFMessage message;
+  constexpr int kTransforms = 50;
+  const auto parent_of = [](int i) { return i / 3 % 2 == 0 ? "base" : "island"; };
+  for (int i = 0; i < kTransforms; ++i) add(message, 1.1 + 0.1 * i, {"/robot", parent_of(i), 0.1 * i});
+  intake_.take(viewsOf(message), false, "/robot", moment(107.0, 7.0));
+  ASSERT_EQ(intake_.history(number()).newest().stamp, s(101.1 + 0.1 * (kTransforms - 1)));
+  for (int i = 0; i < kTransforms; ++i) {
+    const auto sample = intake_.history(number()).sampleAt(s(101.1 + 0.1 * i));
+    ASSERT_TRUE(sample) << i;
+    EXPECT_EQ(intake_.table().name(sample->parent), parent_of(i)) << i;
+    EXPECT_NEAR(sample->parent_from_frame.translation.x(), 0.1 * i, 1e-12) << i;
+  }
+}
+
+TEST_F(TfIntakeTest, TwoPublishersWithLongNamesAreTwoPublishers) {
+  const std::string robot(30, 'r'), rival = robot + "2";
+  send(1.0, {robot});
+  send(1.01, {rival, "base", 0.5});
+  EXPECT_EQ(*frame().publisher, robot) << "the robot holds the frame";
+  send(2.0, {rival, "base", 0.5});
+  EXPECT_EQ(*frame().publisher, rival) << "the robot was silent";
+  send(2.1, {rival, "base", 0.6});
+  EXPECT_EQ(ledger_.counters().count("tf.ignored.CONFLICT"), 0u);
+  EXPECT_EQ(intake_.history(number()).newest().stamp, s(102.1));
 }
 
 }  // namespace
