@@ -32,6 +32,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kTurns = 10;        // spans of time into which a comparison is divided
 constexpr double kLonger = 15.0;  // a 99th percentile needs many round trips
+constexpr int kStarts = 5;        // how often the programs are started that only receive /tf
 constexpr int kTripTurns = 30;    // spans of time into which the round trips are divided
 constexpr double kCache = 10.0;   // [s] how long the node keeps transforms; this is also the default
 
@@ -231,10 +232,16 @@ ControlMeasurement measureControls(const Workload& workload, double duration) {
   const std::vector<tf2_msgs::TFMessage> cycle = moving.move(0.0);
   for (const tf2_msgs::TFMessage& message : cycle) result.transforms += message.transforms.size();
   result.relay = relayLatency(workload, duration, cycle.size());
-  result.receiving = receiving(workload, duration);
   Workload nearly_idle = workload;
   nearly_idle.rate = 1.0;
   result.idle = receiving(nearly_idle, duration);
+  // Programs that are started again get other places in memory and on the processors, which changes their times.
+  std::vector<Receiving> starts;
+  for (int start = 0; start < kStarts; ++start) starts.push_back(receiving(workload, duration));
+  std::sort(starts.begin(), starts.end(),
+            [&](const Receiving& a, const Receiving& b) { return result.timesOf(a) < result.timesOf(b); });
+  result.receiving = starts[starts.size() / 2];
+  for (const Receiving& start : starts) result.times.push_back(result.timesOf(start));
   // All services are measured while the node makes ticks.
   const Control control("service"), beside_tf("service_and_tf");
   const RunningNode node(workload, kLonger * duration);
