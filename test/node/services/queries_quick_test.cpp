@@ -116,7 +116,14 @@ class OpenConnection {
   int socket_ = -1;
 };
 
-/// A node with obstacles at x = 2 and 5 m. The clients of a test note here what they received.
+/// Returns obstacles at x = 2 and 5 m, and 65 at x = -10 m, of which one is 1 m away from the others.
+Value obstacles() {
+  Value all = list({ball("post_2", 2, 0, 0, 0.1), ball("post_5", 5, 0, 0, 0.1), ball("alone", -10, 1, 0, 0.1)});
+  for (int i = 0; i < 64; ++i) all[all.size()] = ball("heap_" + std::to_string(i), -10, 0, 0, 0.1);
+  return all;
+}
+
+/// A node with these obstacles. The clients of a test note here what they received.
 class QuickQueries : public ::testing::Test {
  protected:
   QuickQueries() {
@@ -124,7 +131,7 @@ class QuickQueries : public ::testing::Test {
     setup.params = dict({{"world_frame", "world"},
                          {"robots", list({dict({{"name", "none"}, {"description", "robot_description"}})})},
                          {"accept_uncovered", list({waiver("none/*", "there is no robot")})},
-                         {"obstacles", list({ball("post_2", 2, 0, 0, 0.1), ball("post_5", 5, 0, 0, 0.1)})}});
+                         {"obstacles", obstacles()}});
     setup.beside["robot_description"] = urdf(link("world"));
     node_ = std::make_unique<NodeUnderTest>(setup);
     node_->waitForComplete();
@@ -163,6 +170,21 @@ class QuickQueries : public ::testing::Test {
       check(i, question.response);
     }
   }
+  /// Asks 20 times for the obstacles at x = -10 m. Returns how many answers all calls so far got from the receiving
+  /// thread.
+  std::uint64_t quickAfterAsking(double radius, std::size_t hits) {
+    ros::ServiceClient client = ros::NodeHandle().serviceClient<msg::QuerySphere>(service(), true);
+    msg::QuerySphere question;
+    question.request.center.x = -10.0;
+    question.request.radius = radius;
+    for (int i = 0; i < 20; ++i) {
+      EXPECT_TRUE(client.call(question));
+      EXPECT_EQ(question.response.answer.hits.size(), hits);
+      ++answers_;
+    }
+    const auto all_asked = [&](const msg::Status& status) { return counter(status, "query.asked") == answers_; };
+    return counter(*node_->waitForStatus("all calls", all_asked), "query.quick");
+  }
   void expectAllWell() {
     EXPECT_EQ(wrong_, 0u);
     EXPECT_EQ(lost_, 0u);
@@ -181,6 +203,11 @@ class QuickQueries : public ::testing::Test {
 TEST_F(QuickQueries, AreAnsweredToAClientThatAsksWithoutAPause) {
   sendBursts(1);
   expectAllWell();
+}
+
+TEST_F(QuickQueries, HaveAtMost64Hits) {
+  EXPECT_EQ(quickAfterAsking(1.5, 65), 0u);
+  EXPECT_GT(quickAfterAsking(0.5, 64), 0u);
 }
 
 TEST_F(QuickQueries, AreAnsweredToManyClientsWhileTheNodeReceivesTransforms) {

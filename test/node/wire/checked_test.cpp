@@ -167,6 +167,22 @@ TEST(CheckedFlaw, SaysWhatTheBytesDeclareAndWhatTheyHold) {
   EXPECT_EQ(sentence(bytesOf(0u) + "xyz"), "the message is 7 bytes long; it must end at byte 4");
 }
 
+// The thread that receives requests reads only short ones itself.
+TEST(CheckedRequest, OfMoreThanAKibibyteIsNotReadInAQuickTurn) {
+  const auto bytes_of = [](std::size_t size) {
+    msg::QuerySphere::Request request;
+    request.header.frame_id.assign(size - serialized(request).size(), 'f');
+    return serialized(request);
+  };
+  ASSERT_EQ(bytes_of(1024).size(), 1024u);
+  const QuickTurn turn;
+  const auto read = [](const std::string& bytes) {
+    Checked<msg::QuerySphere::Request>().read(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  };
+  EXPECT_NO_THROW(read(bytes_of(1024)));
+  EXPECT_THROW(read(bytes_of(1025)), TakesLong);
+}
+
 TEST(CheckedSeeds, OfTheFuzzerAreReadCorrectly) { expectNoFlawInSeeds("wire", fuzzWire); }
 
 }  // namespace
