@@ -23,8 +23,10 @@ PoseSample interpolated(const PoseSample& from, const PoseSample& to, Time time)
 const PoseSample FrameHistory::kNoSample;
 
 void FrameHistory::prefetchNewest() const {
-  const char* const sample = reinterpret_cast<const char*>(&newest());
-  for (std::size_t at = 0; at < 2 * sizeof(PoseSample); at += 64) __builtin_prefetch(sample + at, 1);
+  const auto sample = reinterpret_cast<std::uintptr_t>(&newest());
+  for (std::size_t at = 0; at < 2 * sizeof(PoseSample); at += 64) {
+    __builtin_prefetch(reinterpret_cast<const void*>(sample + at), 1);
+  }
 }
 
 void FrameHistory::fix(const PoseSample& sample) {

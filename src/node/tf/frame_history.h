@@ -34,7 +34,7 @@ class FrameHistory {
   /// Returns the sample with the newest stamp. For a static frame, this is its only pose.
   const PoseSample& newest() const { return samples_.empty() ? kNoSample : samples_.back(); }
 
-  /// Starts to load the newest sample, and the place of the next one, into the processor's cache. Changes nothing.
+  /// Starts to load the newest sample, and usually the place of the next one, into the processor's cache.
   void prefetchNewest() const;
 
   /// Makes the frame static at this pose.

@@ -73,7 +73,7 @@ class FrameTable {
     const std::string* name;  // in numbers_
     std::uint32_t length;     // of the name
     std::uint32_t parent = kNone;
-    std::uint32_t next = kNone;  // the frame that admit() got right after this one
+    std::uint32_t next = kNone;  // the frame that admit() or again() returned right after this one
     bool placed = false;         // whether a transform has placed this frame in a parent
     bool is_parent = false;
     bool needed = false;
@@ -104,7 +104,7 @@ class FrameTable {
   Count placed_, parents_;
   std::set<std::string, std::less<>> needed_;  // names that need() received; some of them may have no number yet
   std::uint64_t revision_ = 0;
-  std::uint32_t last_ = kNone;  // the frame of the last call of admit()
+  std::uint32_t last_ = kNone;  // the frame that admit() or again() returned last
 };
 
 }  // namespace hgrid

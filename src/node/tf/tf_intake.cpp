@@ -75,6 +75,7 @@ void TfIntake::takeSome(const TransformView* transforms, std::size_t count, Mess
 /// wait for memory most of the time.
 std::array<std::uint32_t, TfIntake::kAhead> TfIntake::findFrames(const TransformView* transforms, std::size_t count) {
   std::array<std::uint32_t, kAhead> known;
+  known.fill(kNone);
   for (std::size_t i = 0; i < count; ++i) {
     known[i] = store_.again(viewWithoutSlash(transforms[i].parent), viewWithoutSlash(transforms[i].child));
     if (known[i] == kNone) continue;
@@ -159,7 +160,7 @@ void TfIntake::report(const char* where, const Refusal& refusal) {
 }
 
 /// Checks a transform, and returns the number of its frame. Allocates the entries of the child and the parent first. So
-/// each numbered frame has an entry, even if memory runs out.
+/// each numbered frame has an entry, even if memory runs out. @param known  as in takeOne()
 std::uint32_t TfIntake::admit(Arrival& arrival, bool is_static, std::uint32_t known) {
   const TransformView& transform = arrival.transform;
   if (known == kNone) known = store_.again(transform.parent, transform.child);
@@ -212,6 +213,7 @@ void TfIntake::takeStatic(std::uint32_t number, const Arrival& arrival) {
     return;
   }
   const FramePose pose = arrival.pose();
+  if (!arrival.same_publisher) arrival.publisher.shared();  // if memory runs out here, nothing has changed yet
   if (moved || !(pose == history(number).newest().parent_from_frame)) ++static_revision_;
   store_.fix(number, arrival.transform.parent, pose);
   if (!late_.empty()) late_.erase(table().name(number));  // an older transform of the frame
@@ -293,6 +295,7 @@ void TfIntake::takeRepeated(std::uint32_t number, const Arrival& arrival) {
 
 void TfIntake::takeNewest(std::uint32_t number, const Arrival& arrival, const Step& step) {
   Frame& frame = frames_[number];
+  if (!arrival.same_publisher) arrival.publisher.shared();  // if memory runs out here, nothing has changed yet
   const Time stamp_before = history(number).newest().stamp;
   const PoseSample sample{arrival.stamp, kNone, step.continues, arrival.pose()};
   if (arrival.same_parent) {

@@ -27,8 +27,8 @@ struct ChainState {
   /// does not hide that a fast one has stopped.
   Freshness worst = Freshness::fresh;
 
-  /// Why the newest transform of a frame of the chain was refused. Null: none was refused. Valid until the next
-  /// TfIntake::take().
+  /// Why the newest transform of a frame of the chain was refused. Null: none was refused. Valid until the
+  /// TfIntake changes.
   const Refusal* refused = nullptr;
   std::uint32_t contested = TfIntake::kNone;  ///< number of a contested frame of the chain, or kNone
 

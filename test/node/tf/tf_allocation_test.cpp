@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <memory>
 
 #include "src/node/tf/tf_intake.h"
 #include "test/node/support/transform_views.h"
@@ -47,18 +48,24 @@ std::vector<double> positions(const TfIntake& intake) {
   return x;
 }
 
-TEST(TfIntakeFailedAllocation, HasNoEffectOnceTheSameMessageArrivesAgain) {
-  const Moment now{Time(1000000000), {}};
+/// Returns a message with the transforms of 12 frames. @param first  position x [m] of the first one
+tf2_msgs::TFMessage messageAt(std::uint64_t stamp, double first = 0.0) {
   tf2_msgs::TFMessage message;
   for (int i = 0; i < 12; ++i) {
     geometry_msgs::TransformStamped transform;
     transform.header.frame_id = longName(i / 2);
     transform.child_frame_id = longName(i + 1);
-    transform.header.stamp.fromNSec(1000000000);
+    transform.header.stamp.fromNSec(stamp);
     transform.transform.rotation.w = 1.0;
-    transform.transform.translation.x = i;
+    transform.transform.translation.x = first + i;
     message.transforms.push_back(transform);
   }
+  return message;
+}
+
+TEST(TfIntakeFailedAllocation, HasNoEffectOnceTheSameMessageArrivesAgain) {
+  const Moment now{Time(1000000000), {}};
+  const tf2_msgs::TFMessage message = messageAt(1000000000);
   const std::vector<TransformView> views = viewsOf(message);
   Ledger ledger;
   TfIntake all_well(1.0, 10.0, 1000, false, ledger);
@@ -79,6 +86,47 @@ TEST(TfIntakeFailedAllocation, HasNoEffectOnceTheSameMessageArrivesAgain) {
     ASSERT_EQ(byName(intake), byName(all_well));
   }
   EXPECT_GT(k, 50u);
+}
+
+/// Claim: a frame always names the publisher of its newest transform. Otherwise poses of two publishers would be mixed.
+TEST(TfIntakeFailedAllocation, MixesNoPublishers) {
+  constexpr double kOther = 100.0;  // [m] the transforms of the second publisher are so far away
+  const std::string first(30, '1'), second(30, '2');
+  Ledger ledger;
+  for (const bool is_static : {false, true}) {
+    std::size_t k = 1, of_second = 0;
+    for (bool failed = true; failed; ++k) {
+      SCOPED_TRACE("allocation " + std::to_string(k));
+      TfIntake intake(20.0, 10.0, 1000, false, ledger);
+      const auto take = [&](std::uint64_t time, const std::string& publisher, double x) {
+        const auto message = std::make_shared<const tf2_msgs::TFMessage>(messageAt(time, x));
+        const Time now(static_cast<std::int64_t>(time));
+        const Moment moment{now, std::chrono::steady_clock::time_point(now)};
+        return [&intake, is_static, publisher, message, views = viewsOf(*message), moment] {
+          intake.take(views, is_static, publisher, moment);
+        };
+      };
+      const auto expectRightPublishers = [&] {
+        for (std::uint32_t frame = 0; frame < intake.table().size(); ++frame) {
+          const PoseSample& newest = intake.history(frame).newest();
+          if (newest.parent == TfIntake::kNone) continue;
+          const bool is_second = newest.parent_from_frame.translation.x() >= kOther;
+          of_second += is_second ? 1 : 0;
+          ASSERT_NE(intake.frame(frame).publisher, nullptr);
+          ASSERT_EQ(*intake.frame(frame).publisher, is_second ? second : first);
+        }
+      };
+      failed = failsAt(k, Failing::one, take(1000000000, first, 0.0));
+      expectRightPublishers();
+      take(1010000000, second, kOther)();
+      failed = failsAt(k, Failing::one, take(3000000000, second, kOther)) || failed;  // the first one was silent
+      expectRightPublishers();
+      take(3010000000, first, 0.0)();
+      expectRightPublishers();
+    }
+    EXPECT_GT(k, 30u);
+    EXPECT_GT(of_second, 100u);
+  }
 }
 
 }  // namespace

@@ -146,6 +146,57 @@ TEST_F(TfIntakeTest, AMessageMayMoveAFrameToAnotherParentAndBack) {
   }
 }
 
+TEST_F(TfIntakeTest, KnowsWhyTheNewestTransformWasRefused) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  stream(1.0);
+  EXPECT_EQ(intake_.refusal(number()), nullptr);
+  send(1.1, {"/robot", "base", nan});
+  ASSERT_NE(intake_.refusal(number()), nullptr);
+  EXPECT_EQ(intake_.refusal(number())->code(), Code::nonfinite);
+  send(0.0, {"/robot", "base", 1e10}, 1.2);
+  ASSERT_NE(intake_.refusal(number()), nullptr);
+  EXPECT_EQ(intake_.refusal(number())->code(), Code::out_of_range);
+  send(1.3);
+  EXPECT_EQ(intake_.refusal(number()), nullptr);
+  send(1.4, {"/robot", "base", nan});
+  ASSERT_NE(intake_.refusal(number()), nullptr);
+  EXPECT_EQ(intake_.refusal(number())->code(), Code::nonfinite);
+  intake_.forgetMoving();
+  EXPECT_EQ(intake_.refusal(number()), nullptr);
+}
+
+TEST_F(TfIntakeTest, AMessageMayHaveNewFramesAndRefusedOnesBetweenKnownOnes) {
+  const auto message_at = [&](double stamp, int frames, int refused) {
+    tf2_msgs::TFMessage message;
+    for (int i = 0; i < frames; ++i) {
+      add(message, stamp, {"/robot", i == 0 ? "base" : "frame_" + std::to_string(i - 1), 1.0 * i});
+      message.transforms.back().child_frame_id = "frame_" + std::to_string(i);
+    }
+    if (refused >= 0) message.transforms[static_cast<std::size_t>(refused)].transform.rotation.w = 0.0;
+    return message;
+  };
+  for (const int frames : {15, 16, 17, 33, 100}) {
+    SCOPED_TRACE(std::to_string(frames) + " frames");
+    TfIntake intake(20.0, kCache, 200, false, ledger_);
+    const auto take = [&](double stamp, int count, int refused) {
+      const tf2_msgs::TFMessage message = message_at(stamp, count, refused);
+      intake.take(viewsOf(message), false, "/robot", moment(100.0 + stamp, stamp));
+    };
+    const int known = frames / 2, refused = frames / 3;
+    take(1.0, known, -1);
+    take(1.1, frames, refused);
+    for (int i = 0; i < frames; ++i) {
+      const std::uint32_t number = intake.table().find("frame_" + std::to_string(i));
+      ASSERT_NE(number, TfIntake::kNone);
+      const PoseSample& newest = intake.history(number).newest();
+      EXPECT_EQ(newest.stamp, s(i == refused ? 101.0 : 101.1)) << i;
+      EXPECT_EQ(newest.parent_from_frame.translation.x(), 1.0 * i) << i;
+      EXPECT_EQ(intake.table().name(newest.parent), i == 0 ? "base" : "frame_" + std::to_string(i - 1));
+      EXPECT_EQ(intake.refusal(number) != nullptr, i == refused) << i;
+    }
+  }
+}
+
 TEST_F(TfIntakeTest, TwoPublishersWithLongNamesAreTwoPublishers) {
   const std::string robot(30, 'r'), rival = robot + "2";
   send(1.0, {robot});
