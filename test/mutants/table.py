@@ -437,9 +437,6 @@ NODE = [
      "!is_static || !message.publisher.is(frame.publisher)", "!is_static"),
     ("a frame that got another parent in the same message is taken for a frame in the former parent", INTAKE,
      "table().revision() == found_at ? known[i] : kNone", "known[i]"),
-    ("a transform is stored although its publisher cannot be", INTAKE,
-     "  if (!arrival.same_publisher) arrival.publisher.shared();  // if memory runs out here, nothing has changed yet\n"
-     "  const Time", "  const Time"),
     ("names of frames that differ only at their end count as equal", FRAMES,
      "other.size() <= begin.size() || other == *name", "true"),
     ("one stamp far ahead blocks a frame", INTAKE,
