@@ -35,8 +35,8 @@ struct ControlMeasurement {
   std::size_t transforms = 0;  ///< number of transforms of one cycle of /tf
   Spread relay;                ///< from the stamp of a cycle to the arrival of its last message, relayed by a control
   Receiving idle;              ///< with one cycle of /tf per second
-  Receiving receiving;         ///< with the /tf of the workload: the median of several starts, by timesOf()
-  std::vector<double> times;   ///< timesOf() of each of these starts, sorted
+  Receiving receiving;        ///< with the /tf of the workload: of several starts, the one with the median of timesOf()
+  std::vector<double> times;  ///< timesOf() of each of these starts, sorted
   // Round trips over persistent connections:
   ServiceTimes empty_service;            ///< an empty service, which a control offers
   ServiceTimes empty_service_beside_tf;  ///< an empty service of a control that also receives /tf
@@ -44,7 +44,8 @@ struct ControlMeasurement {
   Difference above_empty;                ///< p99 of ~query_sphere minus p99 of the empty service
   Difference above_empty_beside_tf;      ///< the same for the control that also receives /tf
 
-  /// Returns how many times as much as the control the node needs for all cycles of /tf except one per second.
+  /// Returns the processor time of the node divided by that of the control, each without its time at one cycle of /tf
+  /// per second.
   double timesOf(const Receiving& both) const { return (both.node - idle.node) / (both.control - idle.control); }
 };
 

@@ -10,15 +10,16 @@ namespace hgrid {
 /// The name of a publisher, which many frames share. Null: no publisher.
 using SharedName = std::shared_ptr<const std::string>;
 
-/// The publisher of one message. Frames of this publisher get the same string, so that most of them are compared by its
-/// address, not by its characters.
+/// The publisher of one message. Frames of one publisher share one string where possible. Then comparing two publishers
+/// means comparing two addresses, and no characters.
 class MessagePublisher {
  public:
   /// @param name  must outlive this object
   explicit MessagePublisher(const std::string& name) : name_(name) {}
 
   const std::string& name() const { return name_; }
-  /// Whether this publisher has the name `other`. Then also lets `other` refer to the string of this publisher.
+  /// Returns whether `other` is the name of this publisher. If it is, also lets `other` share the string of this
+  /// object.
   bool is(SharedName& other) {
     if (other == nullptr) return false;
     if (other == shared_) return true;
@@ -30,7 +31,7 @@ class MessagePublisher {
     }
     return true;
   }
-  /// Returns the name, for frames. The first call may allocate memory; later calls do not throw.
+  /// Returns the name as a string that frames can share. Only the first call allocates memory.
   const SharedName& shared() {
     if (shared_ == nullptr) shared_ = std::make_shared<const std::string>(name_);
     return shared_;

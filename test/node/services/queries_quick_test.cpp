@@ -116,7 +116,7 @@ class OpenConnection {
   int socket_ = -1;
 };
 
-/// Returns obstacles at x = 2 and 5 m, and 65 at x = -10 m, of which one is 1 m away from the others.
+/// Returns 67 obstacles: one at x = 2 m, one at x = 5 m, 64 at x = -10 m, and one that is 1 m beside these 64.
 Value obstacles() {
   Value all = list({ball("post_2", 2, 0, 0, 0.1), ball("post_5", 5, 0, 0, 0.1), ball("alone", -10, 1, 0, 0.1)});
   for (int i = 0; i < 64; ++i) all[all.size()] = ball("heap_" + std::to_string(i), -10, 0, 0, 0.1);
@@ -170,8 +170,8 @@ class QuickQueries : public ::testing::Test {
       check(i, question.response);
     }
   }
-  /// Asks 20 times for the obstacles at x = -10 m. Returns how many answers all calls so far got from the receiving
-  /// thread.
+  /// Calls the service 20 times for the obstacles at x = -10 m. Returns how many of all calls so far were answered in
+  /// the receiving thread.
   std::uint64_t quickAfterAsking(double radius, std::size_t hits) {
     ros::ServiceClient client = ros::NodeHandle().serviceClient<msg::QuerySphere>(service(), true);
     msg::QuerySphere question;

@@ -48,7 +48,8 @@ std::vector<double> positions(const TfIntake& intake) {
   return x;
 }
 
-/// Returns a message with the transforms of 12 frames. @param first  position x [m] of the first one
+/// Returns a message with the transforms of 12 frames.
+/// @param first  position x [m] of the first frame; each of the others is 1 m farther
 tf2_msgs::TFMessage messageAt(std::uint64_t stamp, double first = 0.0) {
   tf2_msgs::TFMessage message;
   for (int i = 0; i < 12; ++i) {
