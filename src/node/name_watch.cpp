@@ -4,6 +4,7 @@
 
 #include <ros/console.h>
 #include <ros/init.h>
+#include <ros/master.h>
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
 
@@ -23,12 +24,31 @@ std::string reasonOf(XmlRpc::XmlRpcValue& params) {
   return given ? static_cast<std::string&>(params[1]) : "";
 }
 
+/// Asks the master of this node which process has its name. @returns true if this is still the present process
+bool stillRegistered() {
+  XmlRpc::XmlRpcValue request, response, uri;
+  request[0] = ros::this_node::getName();
+  request[1] = ros::this_node::getName();
+  return ros::master::execute("lookupNode", request, response, uri, false) &&
+         uri.getType() == XmlRpc::XmlRpcValue::TypeString &&
+         static_cast<std::string&>(uri) == ros::XMLRPCManager::instance()->getServerURI();
+}
+
 }  // namespace
 
 NameWatch::NameWatch() {
   const auto on_shutdown = [taken = taken_](XmlRpc::XmlRpcValue& params, XmlRpc::XmlRpcValue& result) {
     const std::string reason = reasonOf(params);
+    result = ros::xmlrpc::responseInt(1, "", 0);
     if (reason.find(kReasonOfMaster) != std::string::npos) {
+      if (!*taken && stillRegistered()) {
+        ROS_WARN(
+            "A ROS master requested the shutdown of this node with the reason '%s', but at the master of this node, "
+            "%s, no other node has registered under the name '%s'. The request comes from another master, for which "
+            "an earlier node used the same port, so it is ignored.",
+            printable(reason).c_str(), ros::master::getURI().c_str(), ros::this_node::getName().c_str());
+        return;
+      }
       if (!taken->exchange(
               true)) {  // the master may ask twice, because two registrations of the other node may be under way
         ROS_ERROR(
@@ -41,7 +61,6 @@ NameWatch::NameWatch() {
                reason.empty() ? "no reason" : ("the reason '" + printable(reason) + "'").c_str());
     }
     ros::requestShutdown();
-    result = ros::xmlrpc::responseInt(1, "", 0);
   };
   // roscpp later binds its own handler to the same name. That has no effect, because this handler was bound first.
   ros::XMLRPCManager::instance()->bind("shutdown", on_shutdown);

@@ -261,19 +261,36 @@ TEST(Shutdown, ByRosnodeKillUnregisters) {
   EXPECT_TRUE(endsAndUnregisters(node));
 }
 
-/// Claim: the reason of an XML-RPC request `shutdown` is optional, as the interface of ROS nodes says.
-TEST(Shutdown, NeedsNoReason) {
-  NodeUnderTest node(setupOfWorld());
+/// Sends an XML-RPC request `shutdown` to a node. @param words  name of who asks and, if given, the reason
+bool requestShutdown(const NodeUnderTest& node, const std::vector<std::string>& words) {
   XmlRpc::XmlRpcValue who, response, uri, request, result;
   who[0] = "/shutdown_test";
   who[1] = node.space() + "/proximity";
-  ASSERT_TRUE(ros::master::execute("lookupNode", who, response, uri, false));
   std::string host;
   std::uint32_t port = 0;
-  ASSERT_TRUE(ros::network::splitURI(uri, host, port));
-  request[0] = "/shutdown_test";
+  if (!ros::master::execute("lookupNode", who, response, uri, false) || !ros::network::splitURI(uri, host, port)) {
+    return false;
+  }
+  for (std::size_t i = 0; i < words.size(); ++i) request[static_cast<int>(i)] = words[i];
   XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
-  ASSERT_TRUE(client.execute("shutdown", request, result));
+  return client.execute("shutdown", request, result);
+}
+
+/// Claim: a node that has its name does not end because another master says that a new node has it. That master may
+/// mean an earlier node that used the same port.
+TEST(Shutdown, IsNotRequestedByAnotherMaster) {
+  NodeUnderTest node(setupOfWorld());
+  ASSERT_TRUE(requestShutdown(
+      node, {"/master", "[" + node.space() + "/proximity] Reason: new node registered with same name"}));
+  node.waitForTicks(2);
+  EXPECT_TRUE(node.process().alive());
+  EXPECT_EQ(node.lines("The request comes from another master"), 1u) << node.output();
+}
+
+/// Claim: the reason of an XML-RPC request `shutdown` is optional, as the interface of ROS nodes says.
+TEST(Shutdown, NeedsNoReason) {
+  NodeUnderTest node(setupOfWorld());
+  ASSERT_TRUE(requestShutdown(node, {"/shutdown_test"}));
   EXPECT_TRUE(endsAndUnregisters(node));
   EXPECT_EQ(node.lines("gives no reason"), 1u) << node.output();
 }
