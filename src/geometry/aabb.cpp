@@ -86,14 +86,15 @@ bool isValid(const Aabb& box) {
 }
 
 float roundedDown(double value) {
-  // Works like std::nextafter, but without a function call, because every box needs six of these roundings. It also
-  // avoids a branch on the last digits, because a processor cannot predict such a branch.
+  // Works like std::nextafter, but without a function call and without a branch, because every box needs six of these
+  // roundings and a processor cannot predict which of them change a digit.
   const float nearest = static_cast<float>(value);
-  const std::int32_t above = static_cast<double>(nearest) > value ? 1 : 0;
-  if (nearest == 0.0f) return above == 0 ? nearest : -std::numeric_limits<float>::denorm_min();
   std::int32_t bits;
   std::memcpy(&bits, &nearest, sizeof bits);
-  bits += bits < 0 ? above : -above;  // the next smaller negative number has a larger magnitude
+  // The position of a number among all floats, where -0 comes directly before +0. The conversion keeps the sign, so a
+  // value below its nearest float never gives +0.
+  const auto position = [](std::int32_t of) { return of ^ ((of >> 31) & std::numeric_limits<std::int32_t>::max()); };
+  bits = position(position(bits) - static_cast<std::int32_t>(static_cast<double>(nearest) > value));
   float below;
   std::memcpy(&below, &bits, sizeof below);
   return below;

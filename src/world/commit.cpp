@@ -19,6 +19,17 @@ double reachOf(const BodyPose& pose, const Body& body, double growth_after) {
   return body.max_speed * pose.age;
 }
 
+constexpr std::uint32_t kAhead = 8;  // how many bodies before its turn a body is loaded into the processor's cache
+
+/// Starts to load what makeBoxes() reads of the shapes of a body. Other work removes it from the cache between commits.
+/// It is always inlined, because gcc removes the calls of a function that only prefetches.
+[[gnu::always_inline]] inline void prefetchShapes(const SceneStructure& structure, std::uint32_t body) {
+  for (std::uint32_t proxy = structure.first_proxy[body]; proxy < structure.first_proxy[body + 1]; ++proxy) {
+    const char* const shape = reinterpret_cast<const char*>(structure.shapes[proxy]);
+    for (std::size_t at = 0; at < sizeof(BodyShape); at += 64) __builtin_prefetch(shape + at);
+  }
+}
+
 /// Finds the bodies of an earlier structure by their handles.
 class BodiesBefore {
  public:
@@ -96,6 +107,7 @@ void Scene::State::fillAllBodies(Snapshot& snapshot) {
     if (last) keepBoxes(snapshot);
   }
   for (std::uint32_t body = 0; body < structure->ids.size(); ++body) {
+    if (body + kAhead < structure->ids.size()) prefetchShapes(*structure, body + kAhead);
     fillBoxes(body, snapshot);
     fillPose(body, snapshot);
   }
