@@ -29,7 +29,7 @@ struct PreparedMesh {
   /// Returns bounds of distances from the mesh; null if it is not closed, or until countApart() makes them. Any thread
   /// may call this.
   const DistanceLattice* lattice() const { return lattice_.load(std::memory_order_acquire); }
-  /// Counts a measurement of the mesh that found no contact. One of the calls, after some thousands, makes lattice().
+  /// Counts a measurement of the mesh that found no contact. One of the calls, after some hundreds, makes lattice().
   /// This call takes milliseconds longer; meanwhile other threads go on without. Any thread may call this.
   void countApart() const;
 
