@@ -50,11 +50,6 @@ Record recordOf(const Map& map, const MapPeerKind& kind, const std::string& quer
       .text("status", status);
 }
 
-const char* remark(const Score& score, const std::string& status) {
-  if (status != "ok") return status.c_str();
-  return score.compared == 0 ? "not compared: there is no other peer" : score.correct ? "" : "WRONG";
-}
-
 /// One map and the peers that are compared on it.
 struct Setting {
   const Options& options;
@@ -106,7 +101,7 @@ void playMaking(const Setting& setting, std::vector<Record>& records) {
     records.push_back(recordOf(map, *runs[i].kind, runs[i].query, score, status));
     records.back().number("median_ms", score.median_ms).number("min_ms", score.min_ms).number("bytes_per_leaf", bytes);
     std::printf("  %-28s %-12s %10.3f ms  spread %3.0f %%  %8.2f B  %s\n", runs[i].kind->name.c_str(), runs[i].query,
-                score.median_ms, 100.0 * score.spread, bytes, remark(score, status));
+                score.median_ms, 100.0 * score.spread, bytes, remarkOn(score, status));
   }
   std::fflush(stdout);
 }
@@ -151,7 +146,7 @@ void playAsking(const Setting& setting, const std::vector<std::unique_ptr<MapPee
     records.push_back(record);
     std::printf("  %-28s %-12s %10.4f us  spread %3.0f %%  %8.2f hits  %s\n", runs[i].kind->name.c_str(),
                 runs[i].batched ? "batched" : "single", us, 100.0 * score.spread, double(score.count) / compared,
-                remark(score, status));
+                remarkOn(score, status));
   }
   std::fflush(stdout);
 }

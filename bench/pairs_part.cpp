@@ -73,7 +73,6 @@ Record recordOf(const Setting& setting, const Run& run, const Score& score, cons
 }
 
 void print(const Setting& setting, const Run& run, const Score& score, const std::string& status) {
-  const bool right = score.correct || run.peer == "floor";
   char memory[32] = "";
   if (!run.loads) std::snprintf(memory, sizeof memory, "%7.1f B", score.bytes / double(setting.n));
   std::printf(
@@ -81,10 +80,7 @@ void print(const Setting& setting, const Run& run, const Score& score, const std
       "%s\n",
       run.peer.c_str(), run.instructions.c_str(), run.threads, static_cast<unsigned long long>(run.age),
       score.median_ms, score.min_ms, 100.0 * score.spread, memory, static_cast<unsigned long long>(score.count),
-      double(score.count) / double(setting.n),
-      status != "ok" ? status.c_str()
-      : right        ? ""
-                     : "WRONG");
+      double(score.count) / double(setting.n), run.peer == "floor" && status == "ok" ? "" : remarkOn(score, status));
 }
 
 /// Number of untimed frames at the beginning if different boxes move in each frame. A peer that keeps data from frame

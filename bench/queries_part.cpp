@@ -75,10 +75,7 @@ void play(const std::vector<QueryPeerKind>& kinds, const Options& options, const
     record.number("judged", double(judge.judgedCount())).text("status", status);
     records.push_back(record);
     std::printf("  %-28s %-7s %10.4f us  spread %3.0f %%  %s\n", runs[i].peer->name.c_str(),
-                runs[i].batched ? "batched" : "single", us, 100.0 * score.spread,
-                status != "ok"  ? status.c_str()
-                : score.correct ? ""
-                                : "WRONG");
+                runs[i].batched ? "batched" : "single", us, 100.0 * score.spread, remarkOn(score, status));
   }
   std::fflush(stdout);
 }
@@ -97,7 +94,8 @@ void prepare(const std::vector<QueryPeerKind>& kinds, const Options& options, co
       ms[i].push_back(msSince(begin));
     }
   }
-  std::printf("\n%s, n = %zu: preparation for queries, median of %zu\n", workload.c_str(), world.boxes().size(), kTurns);
+  std::printf("\n%s, n = %zu: preparation for queries, median of %zu\n", workload.c_str(), world.boxes().size(),
+              kTurns);
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     if (ms[i].empty()) continue;
     Record record("preparation");

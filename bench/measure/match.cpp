@@ -107,5 +107,10 @@ std::vector<Score> Match::scores() const {
   return scores;
 }
 
+const char* remarkOn(const Score& score, const std::string& status) {
+  if (status != "ok") return status.c_str();
+  return score.compared == 0 ? "not compared: too few other peers" : score.correct ? "" : "WRONG";
+}
+
 }  // namespace bench
 }  // namespace hgrid

@@ -25,6 +25,11 @@ struct Score {
   bool correct = false;                   ///< whether results were compared and all of them equal the reference
 };
 
+/// Returns what a table says about results, besides the times: why there are no more of them, that they could not be
+/// compared with those of other peers, or that they are wrong. Empty: nothing.
+/// @param status  of the contestant
+const char* remarkOn(const Score& score, const std::string& status);
+
 /// Runs contestants in turn, block by block, and compares their results. Because they take turns, other programs on the
 /// machine slow down all of them alike.
 class Match {
