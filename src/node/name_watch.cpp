@@ -2,9 +2,11 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/name_watch.h"
 
+#include <ros/connection_manager.h>
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/master.h>
+#include <ros/network.h>
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
 
@@ -24,14 +26,29 @@ std::string reasonOf(XmlRpc::XmlRpcValue& params) {
   return given ? static_cast<std::string&>(params[1]) : "";
 }
 
-/// Asks the master of this node which process has its name. @returns true if this is still the present process
-bool stillRegistered() {
+/// Asks the master of this node for the URI of a node or of a service. Empty: it knows none.
+std::string uriOf(const char* method, const std::string& name) {
   XmlRpc::XmlRpcValue request, response, uri;
   request[0] = ros::this_node::getName();
-  request[1] = ros::this_node::getName();
-  return ros::master::execute("lookupNode", request, response, uri, false) &&
-         uri.getType() == XmlRpc::XmlRpcValue::TypeString &&
-         static_cast<std::string&>(uri) == ros::XMLRPCManager::instance()->getServerURI();
+  request[1] = name;
+  const bool found =
+      ros::master::execute(method, request, response, uri, false) && uri.getType() == XmlRpc::XmlRpcValue::TypeString;
+  return found ? static_cast<std::string&>(uri) : "";
+}
+
+/// Asks the master of this node whether another node has taken its name. False if the master does not answer, because
+/// then it requests nothing. While the master is stopped, this does not return, and the node answers no request of
+/// other nodes for connections.
+///
+/// If this node registers something after another one took the name, the name comes back, but without what was
+/// registered before. So the first service of each node is looked up, too; roscpp registers it before all others.
+bool isNameTaken() {
+  if (!ros::master::check()) return false;
+  const std::string& name = ros::this_node::getName();
+  const std::string services =
+      "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::ConnectionManager::instance()->getTCPPort());
+  return uriOf("lookupNode", name) != ros::XMLRPCManager::instance()->getServerURI() ||
+         uriOf("lookupService", name + "/get_loggers") != services;
 }
 
 }  // namespace
@@ -41,11 +58,12 @@ NameWatch::NameWatch() {
     const std::string reason = reasonOf(params);
     result = ros::xmlrpc::responseInt(1, "", 0);
     if (reason.find(kReasonOfMaster) != std::string::npos) {
-      if (!*taken && stillRegistered()) {
+      if (!*taken && !isNameTaken()) {
         ROS_WARN(
-            "A ROS master requested the shutdown of this node with the reason '%s', but at the master of this node, "
-            "%s, no other node has registered under the name '%s'. The request comes from another master, for which "
-            "an earlier node used the same port, so it is ignored.",
+            "A ROS master requested the shutdown of this node with the reason '%s'. The master of this node, %s, knows "
+            "no other node of the name '%s'. The request is probably meant for an earlier node that used the same "
+            "port, "
+            "so this node ignores it.",
             printable(reason).c_str(), ros::master::getURI().c_str(), ros::this_node::getName().c_str());
         return;
       }

@@ -9,9 +9,9 @@ namespace hgrid {
 
 /// Detects that the ROS master ends this node because another node has registered under the same name.
 ///
-/// Another master may send the same request to this node by mistake: if a node of its own ended without unregistering
-/// and started again, and this node now uses the port of the process that ended. Therefore the master of this node is
-/// asked who has the name. While this node has it, the request is ignored, with a warning.
+/// A master may send the same request to this node by mistake. This happens if a node ended without unregistering, this
+/// node now uses its port, and the other node started again. Therefore this node asks its own master who has the name.
+/// If this node still has it, or the master does not answer, it logs a warning and ignores the request.
 class NameWatch {
  public:
   /// Exit code of the process if another node has taken the name of this node.

@@ -261,36 +261,59 @@ TEST(Shutdown, ByRosnodeKillUnregisters) {
   EXPECT_TRUE(endsAndUnregisters(node));
 }
 
-/// Sends an XML-RPC request `shutdown` to a node. @param words  name of who asks and, if given, the reason
-bool requestShutdown(const NodeUnderTest& node, const std::vector<std::string>& words) {
-  XmlRpc::XmlRpcValue who, response, uri, request, result;
-  who[0] = "/shutdown_test";
-  who[1] = node.space() + "/proximity";
+/// Returns the XML-RPC URI of a node.
+std::string uriOf(const NodeUnderTest& node) {
+  XmlRpc::XmlRpcValue request, response, uri;
+  request[0] = "/shutdown_test";
+  request[1] = node.space() + "/proximity";
+  if (!ros::master::execute("lookupNode", request, response, uri, false)) throw std::runtime_error("no such node");
+  return uri;
+}
+
+/// Sends an XML-RPC request `shutdown` to a node. @param words  name of the caller and, if given, the reason
+bool sendShutdown(const NodeUnderTest& node, const std::vector<std::string>& words) {
+  XmlRpc::XmlRpcValue request, result;
   std::string host;
   std::uint32_t port = 0;
-  if (!ros::master::execute("lookupNode", who, response, uri, false) || !ros::network::splitURI(uri, host, port)) {
-    return false;
-  }
+  if (!ros::network::splitURI(uriOf(node), host, port)) return false;
   for (std::size_t i = 0; i < words.size(); ++i) request[static_cast<int>(i)] = words[i];
   XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
   return client.execute("shutdown", request, result);
 }
 
-/// Claim: a node that has its name does not end because another master says that a new node has it. That master may
-/// mean an earlier node that used the same port.
-TEST(Shutdown, IsNotRequestedByAnotherMaster) {
+/// Claim: a node that has its name does not end because a master says that a new node has it. The master may mean an
+/// earlier node that used the same port, of this name at another master, or of another name.
+TEST(Shutdown, IsIgnoredIfItIsMeantForAnEarlierNode) {
   NodeUnderTest node(setupOfWorld());
-  ASSERT_TRUE(requestShutdown(
-      node, {"/master", "[" + node.space() + "/proximity] Reason: new node registered with same name"}));
+  for (const std::string& name : {node.space() + "/proximity", std::string("/earlier")}) {
+    ASSERT_TRUE(sendShutdown(node, {"/master", "[" + name + "] Reason: new node registered with same name"}));
+  }
   node.waitForTicks(2);
   EXPECT_TRUE(node.process().alive());
-  EXPECT_EQ(node.lines("The request comes from another master"), 1u) << node.output();
+  EXPECT_EQ(node.lines("The request is probably meant for an earlier node"), 2u) << node.output();
+  node.process().signal(SIGTERM);
+  EXPECT_TRUE(endsAndUnregisters(node));  // with exit code 0, so it was not ending before
+}
+
+/// Claim: a node also ends if it got its name back, because the master has then removed what it had registered before.
+TEST(Shutdown, IsNotIgnoredIfTheNameWasTakenForAMoment) {
+  NodeUnderTest node(setupOfWorld());
+  const std::string uri = uriOf(node);
+  for (const std::string& by : {std::string("http://127.0.0.1:9/"), uri}) {
+    XmlRpc::XmlRpcValue request, response, payload;
+    request[0] = node.space() + "/proximity";
+    request[1] = node.space() + "/topic";
+    request[2] = "std_msgs/Empty";
+    request[3] = by;
+    ASSERT_TRUE(ros::master::execute("registerPublisher", request, response, payload, false));
+  }
+  EXPECT_EQ(node.process().waitForEnd(20.0).value_or(-1), 3) << node.output();
 }
 
 /// Claim: the reason of an XML-RPC request `shutdown` is optional, as the interface of ROS nodes says.
 TEST(Shutdown, NeedsNoReason) {
   NodeUnderTest node(setupOfWorld());
-  ASSERT_TRUE(requestShutdown(node, {"/shutdown_test"}));
+  ASSERT_TRUE(sendShutdown(node, {"/shutdown_test"}));
   EXPECT_TRUE(endsAndUnregisters(node));
   EXPECT_EQ(node.lines("gives no reason"), 1u) << node.output();
 }
