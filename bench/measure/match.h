@@ -25,8 +25,8 @@ struct Score {
   bool correct = false;                   ///< whether results were compared and all of them equal the reference
 };
 
-/// Returns what a table says about results, besides the times: why there are no more of them, that they could not be
-/// compared with those of other peers, or that they are wrong. Empty: nothing.
+/// Returns the remark of a table on a contestant: why it gave no more results, that its results could not be compared,
+/// or that they are wrong. Returns an empty text if there is nothing to say. The text is valid as long as `status`.
 /// @param status  of the contestant
 const char* remarkOn(const Score& score, const std::string& status);
 

@@ -92,7 +92,7 @@ float roundedDown(double value) {
   std::int32_t bits;
   std::memcpy(&bits, &nearest, sizeof bits);
   // The position of a number among all floats, where -0 comes directly before +0. The conversion keeps the sign, so a
-  // value below its nearest float never gives +0.
+  // value is never below its nearest float if this is +0.
   const auto position = [](std::int32_t of) { return of ^ ((of >> 31) & std::numeric_limits<std::int32_t>::max()); };
   bits = position(position(bits) - static_cast<std::int32_t>(static_cast<double>(nearest) > value));
   float below;

@@ -10,8 +10,8 @@
 namespace hgrid {
 namespace {
 
-// Measurements. They take about a tenth of the time of making a lattice, but a mesh that is measured so often is usually
-// measured many times more, because whoever asks for one state of a robot asks for thousands.
+// Number of measurements without contact after which the lattice is made. They take about a tenth of the time of making
+// it, but whoever asks for one state of a robot usually asks for thousands, so many more follow.
 constexpr std::uint32_t kWorthLattice = 300;
 
 }  // namespace

@@ -21,8 +21,8 @@ double reachOf(const BodyPose& pose, const Body& body, double growth_after) {
 
 constexpr std::uint32_t kAhead = 8;  // how many bodies before its turn a body is loaded into the processor's cache
 
-/// Starts to load what makeBoxes() reads of the shapes of a body. Other work removes it from the cache between commits.
-/// It is always inlined, because gcc removes the calls of a function that only prefetches.
+/// Starts to load the shapes of a body, because other work removes them from the cache between commits. This function
+/// is always inlined, because gcc removes the calls of a function that only prefetches.
 [[gnu::always_inline]] inline void prefetchShapes(const SceneStructure& structure, std::uint32_t body) {
   for (std::uint32_t proxy = structure.first_proxy[body]; proxy < structure.first_proxy[body + 1]; ++proxy) {
     const char* const shape = reinterpret_cast<const char*>(structure.shapes[proxy]);

@@ -2,10 +2,15 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // Compares checkPaths() with samples of the same motions, one per millisecond. The robots are arms of one joint, which
-// carry a ball around their base.
+// carry a sphere around their base.
 #include "src/node/guard/path_check.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
 
 #include "hgrid_proximity/adapters/urdf.h"
 #include "hgrid_proximity/narrow/core_narrow_phase.h"
@@ -24,11 +29,11 @@ const char* const kArm =
     "<link name='arm'><collision><origin xyz='0.5 0 0'/><geometry><sphere radius='0.1'/></geometry></collision></link>"
     "<joint name='shoulder' type='revolute'><parent link='base'/><child link='arm'/><axis xyz='0 0 1'/>"
     "<limit lower='-3' upper='3' effort='1' velocity='10'/></joint></robot>";
-constexpr double kReach = 0.5, kRadius = 0.1;  // [m] of the ball on the arm; all balls have this radius
+constexpr double kReach = 0.5, kRadius = 0.1;  // [m] of the sphere on the arm; all spheres have this radius
 constexpr Time kNow = std::chrono::seconds(100);
 constexpr double kAhead = 10.0;  // [s]
 
-/// Arms among balls, all at the same height.
+/// Arms among spheres, all at the same height.
 class Arms {
  public:
   explicit Arms(std::size_t count) {
@@ -63,7 +68,7 @@ class Arms {
     tick.robots = std::make_shared<const RobotEntries>(entries);
   }
 
-  /// Adds a robot at its place.
+  /// Puts a robot into the scene, and its transforms into the store.
   void stand(std::size_t number, const Eigen::Vector3d& base, double angle) {
     const LoadedRobot& robot = *robots[number];
     const Pose world_from_base = test::at(base.x(), base.y()), base_from_arm{Eigen::AngleAxisd(angle, axis)};
@@ -79,11 +84,11 @@ class Arms {
     bases.push_back(base);
     angles.push_back(angle);
   }
-  void addBall(const Eigen::Vector3d& center) {
-    Body body = test::ball(std::to_string(balls.size()), kRadius);
+  void addSphere(const Eigen::Vector3d& center) {
+    Body body = test::ball(std::to_string(spheres.size()), kRadius);
     for (BodyShape& shape : body.shapes) shape.solid = narrow_phase->solidOf(shape.shape);
     test::put(scene, body, test::at(center.x(), center.y()), kNow);
-    balls.push_back(center);
+    spheres.push_back(center);
   }
   std::vector<PathAnswer> check(const RobotPaths& paths) {
     tick.snapshot = scene.commit(kNow, {});
@@ -93,7 +98,7 @@ class Arms {
     return checkPaths(paths, tick, limits, TransformLookup(transforms), narrow_phase);
   }
 
-  /// Returns the center of the ball on an arm at a time.
+  /// Returns the center of the sphere on an arm at a time.
   Eigen::Vector3d handAt(std::size_t number, const RobotPaths& paths, Time time) const {
     double angle = angles[number];
     for (const auto& path : paths) {
@@ -108,7 +113,7 @@ class Arms {
     const auto meet = [&](const Eigen::Vector3d& other) {
       least = std::min({least, (hand - other).norm(), (bases[number] - other).norm()});
     };
-    for (const Eigen::Vector3d& ball : balls) meet(ball);
+    for (const Eigen::Vector3d& sphere : spheres) meet(sphere);
     for (std::size_t other = 0; other < bases.size(); ++other) {
       if (other == number) continue;
       meet(bases[other]);
@@ -122,7 +127,7 @@ class Arms {
   Scene scene{SceneOptions{}};
   TransformStore transforms{std::chrono::seconds(10), 100};
   std::vector<std::shared_ptr<const LoadedRobot>> robots;
-  std::vector<Eigen::Vector3d> bases, balls;
+  std::vector<Eigen::Vector3d> bases, spheres;
   std::vector<double> angles;
   Tick tick;
 };
@@ -155,7 +160,7 @@ TEST(CheckPaths, AgreesWithSamplesOfTheMotions) {
     }
     for (int i = random.between(0, 2); i > 0; --i) {
       const double angle = random.uniform(-M_PI, M_PI), away = random.uniform(0.35, 0.9);
-      arms.addBall(away * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0));
+      arms.addSphere(away * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0));
     }
     const std::vector<PathAnswer> answers = arms.check(paths);
     ASSERT_EQ(answers.size(), paths.size());
@@ -184,11 +189,13 @@ TEST(CheckPaths, AgreesWithSamplesOfTheMotions) {
       EXPECT_LE(answer.free_for, at + 1e-9);
       const Eigen::Vector3d hand = arms.handAt(i, paths, conflict.at);
       if (arms.gapAt(i, paths, kNow) <= 0.0) {  // it is in contact from the beginning
+        EXPECT_LE(at, 0.1);
         EXPECT_LE((hand - arms.handAt(i, paths, kNow)).norm(), kDoubt);
         continue;
       }
       ++between;
       EXPECT_LE(at, first);
+      EXPECT_GE(answer.free_for, at - 0.1);
       EXPECT_LE(std::abs(arms.gapAt(i, paths, conflict.at)), kDoubt);
       EXPECT_LE(std::min((conflict.point - hand).norm(), (conflict.point - arms.bases[i]).norm()), kRadius + kDoubt);
     }
@@ -200,7 +207,7 @@ TEST(CheckPaths, AgreesWithSamplesOfTheMotions) {
 }
 
 /// Claim: if one robot is not on its path, nobody knows where it will be, so no path is clear.
-TEST(CheckPaths, AreNotClearWhileARobotIsNotOnItsPath) {
+TEST(CheckPaths, LeavesAllUnknownIfARobotIsNotOnItsPath) {
   Arms arms(2);
   RobotPaths paths;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -212,7 +219,9 @@ TEST(CheckPaths, AreNotClearWhileARobotIsNotOnItsPath) {
     path->times = {kNow, kNow + std::chrono::seconds(1)};
     paths.push_back(path);
   }
-  for (const PathAnswer& answer : arms.check(paths)) {
+  const std::vector<PathAnswer> answers = arms.check(paths);
+  ASSERT_EQ(answers.size(), 2u);
+  for (const PathAnswer& answer : answers) {
     EXPECT_EQ(answer.verdict, Verdict::unknown);
     EXPECT_NE(answer.reason.find("'robot1'"), std::string::npos) << answer.reason;
     EXPECT_EQ(answer.free_for, 0.0);
