@@ -566,6 +566,8 @@ NODE = [
      "path_.times.empty() ? Time(0) : path_.times.back()", "Time(0)"),
     ("a later path hides the earlier one until it starts", "node/guard/path_start.cpp",
      "time > now && time < start", "false"),
+    ("robots follow their paths at half speed", "node/guard/joined_paths.cpp",
+     "path->positionAt(i, time)", "path->positionAt(i, begin + (time - begin) / 2)"),
     ("a full turn is a deviation", "node/guard/path_deviation.cpp",
      "if (!variable.is_angle || variable.is_mimicked)", "if (true)"),
     ("a change that was answered BUSY is made later", JOBS,
