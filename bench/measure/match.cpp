@@ -109,7 +109,7 @@ std::vector<Score> Match::scores() const {
 
 const char* remarkOn(const Score& score, const std::string& status) {
   if (status != "ok") return status.c_str();
-  return score.compared == 0 ? "not compared: no two other peers agree" : score.correct ? "" : "WRONG";
+  return score.compared == 0 ? "not compared: no majority of at least two other peers" : score.correct ? "" : "WRONG";
 }
 
 }  // namespace bench

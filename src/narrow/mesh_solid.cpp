@@ -10,8 +10,8 @@
 namespace hgrid {
 namespace {
 
-// Number of measurements without contact after which the lattice is made. They take about a tenth of the time of making
-// it, but whoever asks for one state of a robot usually asks for thousands, so many more follow.
+// Number of measurements without contact after which the lattice is made. Making it takes about as long as ten times as
+// many measurements. But whoever asks for one state of a robot usually asks for thousands, so it is worth its time.
 constexpr std::uint32_t kWorthLattice = 300;
 
 }  // namespace

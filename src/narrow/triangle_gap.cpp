@@ -66,9 +66,9 @@ std::optional<Vector> projected(const Prepared& triangle, const Vector& point) {
   return triangle.corners[0] + (second + third) * side + third * next;
 }
 
-/// Returns true only if another triangle is at least `enough` from the plane of a triangle, on one side of it. This
-/// test is quick, and it is enough for most pairs that do not touch. @param doubt  bound of the rounding errors of a
-/// height
+/// Returns true only if another triangle is on one side of the plane of a triangle, and at least `enough` [m] from it.
+/// This quick test proves that most triangles that do not touch are apart.
+/// @param doubt  bound of the rounding errors of a height
 bool isBeyondPlane(const Prepared& triangle, const Triangle& other, double enough, double doubt) {
   const Vector normal = triangle.edges[0].cross(triangle.edges[1]);
   const auto height = [&](std::size_t i) { return normal.dot(other[i] - triangle.corners[0]); };

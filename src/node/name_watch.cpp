@@ -36,12 +36,12 @@ std::string uriOf(const char* method, const std::string& name) {
   return found ? static_cast<std::string&>(uri) : "";
 }
 
-/// Asks the master of this node whether another node has taken its name. False if the master does not answer, because
-/// then it requests nothing. While the master is stopped, this does not return, and the node answers no request of
-/// other nodes for connections.
+/// Asks the master of this node whether another node has taken the name of this node. Returns false if the master does
+/// not answer, because such a master has not requested the shutdown either. If the process of the master is stopped,
+/// this waits until it continues, and until then no other node can connect to this one.
 ///
-/// If this node registers something after another one took the name, the name comes back, but without what was
-/// registered before. So the first service of each node is looked up, too; roscpp registers it before all others.
+/// If this node registers something after another node took the name, this node has the name again, but the master has
+/// dropped what this node had registered before. So this also asks for the service that roscpp registers first.
 bool isNameTaken() {
   if (!ros::master::check()) return false;
   const std::string& name = ros::this_node::getName();
@@ -60,10 +60,9 @@ NameWatch::NameWatch() {
     if (reason.find(kReasonOfMaster) != std::string::npos) {
       if (!*taken && !isNameTaken()) {
         ROS_WARN(
-            "A ROS master requested the shutdown of this node with the reason '%s'. The master of this node, %s, knows "
-            "no other node of the name '%s'. The request is probably meant for an earlier node that used the same "
-            "port, "
-            "so this node ignores it.",
+            "A ROS master requested the shutdown of this node with the reason '%s'. But the master of this node, %s, "
+            "knows no other node of the name '%s', or it does not answer. The request is probably meant for an earlier "
+            "node that used the same port, so this node ignores it.",
             printable(reason).c_str(), ros::master::getURI().c_str(), ros::this_node::getName().c_str());
         return;
       }

@@ -9,9 +9,10 @@ namespace hgrid {
 
 /// Detects that the ROS master ends this node because another node has registered under the same name.
 ///
-/// A master may send the same request to this node by mistake. This happens if a node ended without unregistering, this
-/// node now uses its port, and the other node started again. Therefore this node asks its own master who has the name.
-/// If this node still has it, or the master does not answer, it logs a warning and ignores the request.
+/// A master may send the same request to this node by mistake. This happens if some node ended without unregistering
+/// and was started again, and this node got the port that the ended process had used. Therefore this node asks its own
+/// master who has the name of this node. If this node still has it, or the master does not answer, this node logs a
+/// warning and ignores the request.
 class NameWatch {
  public:
   /// Exit code of the process if another node has taken the name of this node.
