@@ -7,42 +7,31 @@
 namespace hgrid {
 namespace {
 
-/// Sets `result` to the product of two rotations.
-void multiply(const FourDoubles (&a)[9], const FourDoubles (&b)[9], FourDoubles (&result)[9]) {
+/// Sets `world` to the product of two poses.
+void compose(const FourPoses& parent, const FourPoses& in_parent, FourPoses& world) {
   for (std::size_t row = 0; row < 3; ++row) {
+    const FourDoubles* const turn = parent.turn + 3 * row;
     for (std::size_t column = 0; column < 3; ++column) {
-      result[3 * row + column] =
-          a[3 * row] * b[column] + a[3 * row + 1] * b[3 + column] + a[3 * row + 2] * b[6 + column];
+      world.turn[3 * row + column] = turn[0] * in_parent.turn[column] + turn[1] * in_parent.turn[3 + column] +
+                                     turn[2] * in_parent.turn[6 + column];
     }
+    world.shift[row] = turn[0] * in_parent.shift[0] + turn[1] * in_parent.shift[1] + turn[2] * in_parent.shift[2] +
+                       parent.shift[row];
   }
 }
 
-/// Sets `result` to a point of the parent group in the world.
-void moveBy(const FourPoses& parent, const FourDoubles (&point)[3], FourDoubles (&result)[3]) {
-  for (std::size_t row = 0; row < 3; ++row) {
-    result[row] = parent.turn[3 * row] * point[0] + parent.turn[3 * row + 1] * point[1] +
-                  parent.turn[3 * row + 2] * point[2] + parent.shift[row];
-  }
-}
-
-void turnGroup(const JointMotion& joint, const FourDoubles& angle, const FourPoses& parent, FourPoses& group) {
+void turn(const JointMotion& joint, const FourDoubles& angle, FourPoses& in_parent) {
   const SineCosine turned = sineCosine(angle);
   const FourDoubles versine = fourDoubles(1.0) - turned.cosine;
-  FourDoubles turn[9], shift[3];
   for (std::size_t i = 0; i < 9; ++i) {
-    turn[i] = fourDoubles(joint.turn[0][i]) + turned.sine * joint.turn[1][i] + versine * joint.turn[2][i];
+    in_parent.turn[i] = fourDoubles(joint.turn[0][i]) + turned.sine * joint.turn[1][i] + versine * joint.turn[2][i];
   }
-  for (std::size_t i = 0; i < 3; ++i) shift[i] = fourDoubles(joint.shift[i]);
-  multiply(parent.turn, turn, group.turn);
-  moveBy(parent, shift, group.shift);
+  for (std::size_t i = 0; i < 3; ++i) in_parent.shift[i] = fourDoubles(joint.shift[i]);
 }
 
-void shiftGroup(const JointMotion& joint, const FourDoubles& position, const FourPoses& parent, FourPoses& group) {
-  FourDoubles turn[9], shift[3];
-  for (std::size_t i = 0; i < 9; ++i) turn[i] = fourDoubles(joint.turn[0][i]);
-  for (std::size_t i = 0; i < 3; ++i) shift[i] = fourDoubles(joint.shift[i]) + position * joint.slide[i];
-  multiply(parent.turn, turn, group.turn);
-  moveBy(parent, shift, group.shift);
+void slide(const JointMotion& joint, const FourDoubles& position, FourPoses& in_parent) {
+  for (std::size_t i = 0; i < 9; ++i) in_parent.turn[i] = fourDoubles(joint.turn[0][i]);
+  for (std::size_t i = 0; i < 3; ++i) in_parent.shift[i] = fourDoubles(joint.shift[i]) + position * joint.slide[i];
 }
 
 /// Returns the pose that a planar joint gives its group, in the frame of the parent group.
@@ -56,20 +45,27 @@ Pose planarPose(const JointMotion& joint, double x, double y, double theta) {
 }
 
 /// Moves the group of a planar or floating joint. Few robots have such joints, so this computes one state at a time.
-void moveFreely(const JointMotion& joint, const FourDoubles* values, const FourPoses& parent, FourPoses& group) {
+void moveFreely(const JointMotion& joint, const FourDoubles* values, FourPoses& in_parent) {
   for (std::size_t lane = 0; lane < 4; ++lane) {
     const auto value = [&](std::size_t part) { return values[joint.variable + part][lane]; };
-    Pose parent_from_group = Pose::Identity();
     if (joint.kind == JointKind::planar) {
-      parent_from_group = planarPose(joint, value(0), value(1), value(2));
+      in_parent.set(lane, planarPose(joint, value(0), value(1), value(2)));
     } else {
       Pose moved = Pose::Identity();
       moved.translation() << value(0), value(1), value(2);
       moved.linear() = Eigen::Quaterniond(value(6), value(3), value(4), value(5)).normalized().toRotationMatrix();
-      parent_from_group = joint.parent_from_plane * moved;
+      in_parent.set(lane, joint.parent_from_plane * moved);
     }
-    group.set(lane, parent.of(lane) * parent_from_group);
   }
+}
+
+/// Computes the pose that a joint gives its group, in the frame of the parent group.
+void moveJoint(const JointMotion& joint, const std::vector<FourDoubles>& values, FourPoses& in_parent) {
+  if (joint.kind == JointKind::planar || joint.kind == JointKind::floating) {
+    return moveFreely(joint, values.data(), in_parent);
+  }
+  const FourDoubles position = values[joint.variable] * joint.multiplier + fourDoubles(joint.offset);
+  joint.kind == JointKind::revolute ? turn(joint, position, in_parent) : slide(joint, position, in_parent);
 }
 
 }  // namespace
@@ -82,23 +78,16 @@ void FourPoses::set(std::size_t lane, const Pose& pose) {
 }
 
 void forwardKinematics(const Kinematics& kinematics, const std::vector<FourDoubles>& values,
-                       const Pose& world_from_root, const std::uint8_t* changing, std::vector<FourPoses>& groups) {
+                       const Pose& world_from_root, const GroupChange* changes, GroupPoses& poses) {
   const std::vector<JointMotion>& joints = kinematics.state().groups;
-  for (std::size_t lane = 0; changing == nullptr && lane < 4; ++lane) groups[0].set(lane, world_from_root);
+  poses.in_parent.resize(joints.size());
+  poses.in_world.resize(joints.size());
+  for (std::size_t lane = 0; changes == nullptr && lane < 4; ++lane) poses.in_world[0].set(lane, world_from_root);
   for (std::size_t i = 1; i < joints.size(); ++i) {
-    if (changing != nullptr && changing[i] == 0) continue;
-    const JointMotion& joint = joints[i];
-    const FourPoses& parent = groups[joint.parent];
-    if (joint.kind == JointKind::planar || joint.kind == JointKind::floating) {
-      moveFreely(joint, values.data(), parent, groups[i]);
-      continue;
-    }
-    const FourDoubles position = values[joint.variable] * joint.multiplier + fourDoubles(joint.offset);
-    if (joint.kind == JointKind::revolute) {
-      turnGroup(joint, position, parent, groups[i]);
-    } else {
-      shiftGroup(joint, position, parent, groups[i]);
-    }
+    const GroupChange change = changes == nullptr ? GroupChange::joint : changes[i];
+    if (change == GroupChange::none) continue;
+    if (change == GroupChange::joint) moveJoint(joints[i], values, poses.in_parent[i]);
+    compose(poses.in_world[joints[i].parent], poses.in_parent[i], poses.in_world[i]);
   }
 }
 

@@ -60,12 +60,25 @@ struct FourPoses {
   void set(std::size_t lane, const Pose& pose);
 };
 
+/// Why the pose of a rigid group must be computed again, if only some variables have changed.
+enum class GroupChange : std::uint8_t {
+  none,    ///< it need not: it is the same, or nobody needs it
+  parent,  ///< its joint has the same position, but the pose of the parent group has changed
+  joint    ///< the position of its joint has changed
+};
+
+/// The poses of all rigid groups in four states.
+struct GroupPoses {
+  std::vector<FourPoses> in_parent;  // of each group, in the frame of its parent group
+  std::vector<FourPoses> in_world;
+};
+
 /// Computes the poses of all rigid groups in four states.
-/// @param values      one value for each variable of `kinematics`
+/// @param values           one value for each variable of `kinematics`
 /// @param world_from_root  pose of the first rigid group
-/// @param changing    for each rigid group: whether to compute its pose; null: compute all
-/// @param groups      receives the poses; it must have one element for each rigid group
+/// @param changes          for each rigid group; null: compute all
+/// @param poses            receives the poses; if `changes` is not null, those of an earlier call
 void forwardKinematics(const Kinematics& kinematics, const std::vector<FourDoubles>& values,
-                       const Pose& world_from_root, const std::uint8_t* changing, std::vector<FourPoses>& groups);
+                       const Pose& world_from_root, const GroupChange* changes, GroupPoses& poses);
 
 }  // namespace hgrid

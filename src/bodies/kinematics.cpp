@@ -225,11 +225,11 @@ int Kinematics::find(const std::string& variable) const {
 std::vector<Pose> Kinematics::rootFromLinks(const std::vector<double>& state) const {
   std::vector<FourDoubles> values;
   for (const double value : state) values.push_back(fourDoubles(value));
-  std::vector<FourPoses> groups(state_->groups.size());
+  GroupPoses groups;
   forwardKinematics(*this, values, Pose::Identity(), nullptr, groups);
   std::vector<Pose> poses;
   for (std::size_t link = 0; link < state_->links.size(); ++link) {
-    poses.push_back(groups[state_->group_of_link[link]].of(0) * state_->group_from_link[link]);
+    poses.push_back(groups.in_world[state_->group_of_link[link]].of(0) * state_->group_from_link[link]);
   }
   return poses;
 }

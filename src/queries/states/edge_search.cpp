@@ -52,7 +52,7 @@ EdgeSearch::EdgeSearch(const CheckerParts& all, const StateBatch& batch, const s
       request_(request),
       memory_(memory),
       answers_(answers),
-      values_(all.kinematics, batch, memory),
+      values_(all.kinematics, all.robot, batch, memory),
       search_(*all.snapshot, *all.narrow_phase, all.robot, all.world, SearchGoal::all_near,
               std::numeric_limits<double>::infinity(), memory),
       doubt_(all.doubts.findAnywhere(!batch.world_from_root)) {
@@ -78,7 +78,7 @@ void EdgeSearch::run() {
       if (memory_.edges[lane].searches_all) all |= 1u << lane;
     }
     if (open == 0) return;
-    forwardKinematics(all_.kinematics, memory_.values, world_from_root, is_first ? nullptr : memory_.changing.data(),
+    forwardKinematics(all_.kinematics, memory_.values, world_from_root, is_first ? nullptr : memory_.changes.data(),
                       memory_.groups);
     search_.place(open, is_first);
     for (std::size_t lane = 0; lane < 4; ++lane) {
@@ -213,7 +213,7 @@ void EdgeSearch::place(std::size_t lane) {
 /// findPairReaches() does this for the pairs of shapes of the robot.
 void EdgeSearch::findReaches(std::size_t lane) {
   EdgeInWork& work = memory_.edges[lane];
-  const MotionBounds::HalfPart half{memory_.groups, memory_.placed, all_.snapshot->origin(), lane,
+  const MotionBounds::HalfPart half{memory_.groups.in_world, memory_.placed, all_.snapshot->origin(), lane,
                                     0.5 * (work.part.tip - work.part.begin) * (1.0 + 1e-6)};
   if (work.searches_all) {
     for (std::size_t i = 0; i < memory_.shape_reach.size(); ++i) {

@@ -93,6 +93,7 @@ RobotShapes::RobotShapes(const Snapshot& snapshot, const Kinematics& kinematics,
   chooseGroup(kinematics, options.group);
   chooseRobots(snapshot, options.robots);
   addShapes(snapshot, scope);
+  findCarriers(kinematics);
   addClusters();
   addSelfPairs(snapshot.structure().filter);
 }
@@ -234,6 +235,15 @@ void RobotShapes::addShapesOf(const Snapshot& snapshot, const QueryScope& scope,
                    [](const RobotShape& a, const RobotShape& b) { return a.group < b.group; });
 }
 
+void RobotShapes::findCarriers(const Kinematics& kinematics) {
+  const std::vector<JointMotion>& joints = kinematics.state().groups;
+  carries_shapes_.resize(joints.size());
+  for (const RobotShape& shape : shapes_) carries_shapes_[shape.group] = true;
+  for (std::size_t i = joints.size(); i-- > 1;) {
+    if (carries_shapes_[i]) carries_shapes_[joints[i].parent] = true;
+  }
+}
+
 /// Divides the shapes into clusters. A shape joins the cluster of the shape before it, unless the box of the cluster
 /// would become much larger than the boxes of its shapes.
 void RobotShapes::addClusters() {
@@ -272,11 +282,11 @@ std::uint32_t RobotShapes::meshOf(std::uint32_t first, std::uint32_t second) con
   return b.clearance.exists() && volume(b.in_group) > volume(a.in_group) ? second : first;
 }
 
-void RobotShapes::place(const std::vector<FourPoses>& groups, const std::uint8_t* changing,
+void RobotShapes::place(const std::vector<FourPoses>& groups, const GroupChange* changes,
                         const Eigen::Vector3d& origin, std::vector<FourShapes>& placed) const {
   for (std::size_t i = 0; i < shapes_.size();) {
     const std::uint32_t group = shapes_[i].group;
-    if (changing != nullptr && changing[group] == 0) {
+    if (changes != nullptr && changes[group] == GroupChange::none) {
       ++i;
       continue;
     }

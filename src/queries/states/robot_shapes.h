@@ -70,14 +70,16 @@ class RobotShapes {
   /// Returns the clusters of the shapes of bodies that count, in the order of the shapes. Each shape is in one of them.
   const std::vector<ShapeCluster>& clusters() const { return clusters_; }
   const std::vector<SelfPair>& selfPairs() const { return self_pairs_; }
+  /// Returns whether a rigid group, or a group that moves with it, has a shape.
+  bool carriesShapes(std::size_t group) const { return carries_shapes_[group]; }
   /// Returns whether the joints of the robot move this body.
   bool moves(std::uint32_t body) const { return body < is_own_.size() && is_own_[body]; }
 
   /// Computes where the shapes are in four states.
   /// @param groups    poses of the rigid groups
-  /// @param changing  for each rigid group: whether to compute its shapes; null: compute all
+  /// @param changes   for each rigid group; null: compute all
   /// @param placed    has one element for each of shapes()
-  void place(const std::vector<FourPoses>& groups, const std::uint8_t* changing, const Eigen::Vector3d& origin,
+  void place(const std::vector<FourPoses>& groups, const GroupChange* changes, const Eigen::Vector3d& origin,
              std::vector<FourShapes>& placed) const;
 
  private:
@@ -87,6 +89,7 @@ class RobotShapes {
   void chooseRobots(const Snapshot& snapshot, const std::vector<std::string>& robots);
   void addShapes(const Snapshot& snapshot, const QueryScope& scope);
   void addShapesOf(const Snapshot& snapshot, const QueryScope& scope, bool counts);
+  void findCarriers(const Kinematics& kinematics);
   void addClusters();
   void addSelfPairs(const PairFilter& filter);
   std::uint32_t meshOf(std::uint32_t first, std::uint32_t second) const;
@@ -96,7 +99,8 @@ class RobotShapes {
   std::size_t counting_ = 0;
   std::vector<ShapeCluster> clusters_;
   std::vector<SelfPair> self_pairs_;
-  std::vector<bool> is_own_;  // by index of the body
+  std::vector<bool> is_own_;         // by index of the body
+  std::vector<bool> carries_shapes_;  // by index of the rigid group
 };
 
 /// Returns spheres inside a padded shape at a pose [m]; nothing if none are known.

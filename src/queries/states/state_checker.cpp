@@ -84,7 +84,7 @@ void StateChecker::checkStates(const StateBatch& batch, const StateRequest& requ
   const CheckerParts& all = *state_;
   StateMemory& memory = *scratch.memory_;
   const Pose world_from_root = all.worldFromRoot(batch);
-  StateValues values(all.kinematics, batch, memory);
+  StateValues values(all.kinematics, all.robot, batch, memory);
   memory.prepare(all.kinematics, all.robot);
   std::fill(memory.shape_reach.begin(), memory.shape_reach.end(), allFour(roundedUp(request.clearance)));
   std::fill(memory.pair_reach.begin(), memory.pair_reach.end(), allFour(roundedUp(request.clearance)));
@@ -111,7 +111,7 @@ void StateChecker::checkStates(const StateBatch& batch, const StateRequest& requ
       }
       continue;
     }
-    forwardKinematics(all.kinematics, memory.values, world_from_root, is_first ? nullptr : memory.changing.data(),
+    forwardKinematics(all.kinematics, memory.values, world_from_root, is_first ? nullptr : memory.changes.data(),
                       memory.groups);
     search.place(open, is_first);
     search.findAll(open);
@@ -119,7 +119,7 @@ void StateChecker::checkStates(const StateBatch& batch, const StateRequest& requ
       if ((open >> lane & 1u) == 0) continue;
       write(search, all.doubts, lane, request, !batch.world_from_root, answers.states[first + lane], answers.pairs);
       if (!request.gradients || !search.hasNear(lane)) continue;
-      clearanceGradient(all.kinematics, all.robot, memory.groups, memory.values, lane, search.nearPair(lane),
+      clearanceGradient(all.kinematics, all.robot, memory.groups.in_world, memory.values, lane, search.nearPair(lane),
                         memory.gradient);
       double* const row = &answers.gradients[(first + lane) * memory.columns.size()];
       for (const auto& [variable, column] : memory.columns) row[column] = memory.gradient[variable];

@@ -35,7 +35,6 @@ bool isNearer(const NearShapes& a, const NearShapes& b) {
 
 void StateMemory::prepare(const Kinematics& kinematics, const RobotShapes& robot) {
   const std::size_t shapes = robot.shapes().size(), variables = kinematics.variables().size();
-  groups.resize(kinematics.state().groups.size());
   placed.resize(shapes);
   spheres.resize(4 * shapes);
   spheres_known.resize(shapes);
@@ -54,10 +53,10 @@ StateSearch::StateSearch(const Snapshot& snapshot, const NarrowPhase& narrow_pha
       goal_(goal),
       farthest_(farthest),
       scratch_(scratch),
-      robots_{{{snapshot, narrow_phase, robot, scratch.groups, scratch.placed, 0},
-               {snapshot, narrow_phase, robot, scratch.groups, scratch.placed, 1},
-               {snapshot, narrow_phase, robot, scratch.groups, scratch.placed, 2},
-               {snapshot, narrow_phase, robot, scratch.groups, scratch.placed, 3}}} {}
+      robots_{{{snapshot, narrow_phase, robot, scratch.groups.in_world, scratch.placed, 0},
+               {snapshot, narrow_phase, robot, scratch.groups.in_world, scratch.placed, 1},
+               {snapshot, narrow_phase, robot, scratch.groups.in_world, scratch.placed, 2},
+               {snapshot, narrow_phase, robot, scratch.groups.in_world, scratch.placed, 3}}} {}
 
 void StateSearch::place(unsigned open, bool first) {
   open_ = open;
@@ -66,11 +65,12 @@ void StateSearch::place(unsigned open, bool first) {
   for (auto& near : scratch_.near) near.clear();
   for (auto& kept : scratch_.kept) kept.clear();
   for (auto& found : scratch_.pairs) found.clear();
-  const std::uint8_t* const changing = first ? nullptr : scratch_.changing.data();
+  const GroupChange* const changes = first ? nullptr : scratch_.changes.data();
   for (std::size_t i = 0; i < robot_.shapes().size(); ++i) {
-    if (changing == nullptr || changing[robot_.shapes()[i].group] != 0) scratch_.spheres_known[i] = 0;
+    const bool is_same = changes != nullptr && changes[robot_.shapes()[i].group] == GroupChange::none;
+    if (!is_same) scratch_.spheres_known[i] = 0;
   }
-  robot_.place(scratch_.groups, changing, snapshot_.origin(), scratch_.placed);
+  robot_.place(scratch_.groups.in_world, changes, snapshot_.origin(), scratch_.placed);
 }
 
 void StateSearch::findAll(unsigned lanes) {

@@ -79,7 +79,8 @@ void checkOtherQuaternions(const Kinematics& kinematics, const StateBatch& batch
 
 }  // namespace
 
-StateValues::StateValues(const Kinematics& kinematics, const StateBatch& batch, StateMemory& scratch)
+StateValues::StateValues(const Kinematics& kinematics, const RobotShapes& robot, const StateBatch& batch,
+                         StateMemory& scratch)
     : kinematics_(kinematics),
       batch_(batch),
       scratch_(scratch),
@@ -102,7 +103,7 @@ StateValues::StateValues(const Kinematics& kinematics, const StateBatch& batch, 
                                          "'; name all joints, or give values for the other joints");
     }
   }
-  findChanging();
+  findChanges(robot);
 }
 
 std::size_t StateValues::sizeOf(const Kinematics& kinematics, const StateBatch& batch) {
@@ -110,16 +111,22 @@ std::size_t StateValues::sizeOf(const Kinematics& kinematics, const StateBatch& 
   return (batch.positions.size() + width - 1) / width;
 }
 
-/// Finds the rigid groups that move when the variables in the batch change.
-void StateValues::findChanging() {
+/// Finds the rigid groups that move when the variables in the batch change. Groups without shapes are left out.
+void StateValues::findChanges(const RobotShapes& robot) {
   const std::vector<JointMotion>& joints = kinematics_.state().groups;
-  scratch_.changing.assign(joints.size(), 0);
+  std::vector<GroupChange>& changes = scratch_.changes;
+  changes.assign(joints.size(), GroupChange::none);
   for (std::size_t i = 1; i < joints.size(); ++i) {
     const std::uint32_t first = joints[i].variable, end = first + joints[i].variables();
-    const bool changes = std::any_of(scratch_.columns.begin(), scratch_.columns.end(), [&](const auto& column) {
+    const bool moves = std::any_of(scratch_.columns.begin(), scratch_.columns.end(), [&](const auto& column) {
       return column.variable >= first && column.variable < end;
     });
-    scratch_.changing[i] = changes || scratch_.changing[joints[i].parent] != 0 ? 1 : 0;
+    if (!robot.carriesShapes(i)) continue;
+    if (moves) {
+      changes[i] = GroupChange::joint;
+    } else if (changes[joints[i].parent] != GroupChange::none) {
+      changes[i] = GroupChange::parent;
+    }
   }
 }
 

@@ -12,7 +12,7 @@ namespace hgrid {
 class StateValues {
  public:
   /// Finds the columns of the variables. @throws Refusal as StateChecker::checkStates() says
-  StateValues(const Kinematics& kinematics, const StateBatch& batch, StateMemory& scratch);
+  StateValues(const Kinematics& kinematics, const RobotShapes& robot, const StateBatch& batch, StateMemory& scratch);
 
   /// Returns the number of states in the batch, including an incomplete last state.
   std::size_t size() const { return sizeOf(kinematics_, batch_); }
@@ -29,7 +29,7 @@ class StateValues {
  private:
   bool isComplete(std::size_t state) const { return (state + 1) * width_ <= batch_.positions.size(); }
   void check(std::size_t lane, StateAnswer& answer) const;
-  void findChanging();
+  void findChanges(const RobotShapes& robot);
 
   const Kinematics& kinematics_;
   const StateBatch& batch_;

@@ -76,12 +76,12 @@ struct Bounded {
   void findPart(double middle, double half) {
     std::vector<FourDoubles> values;
     for (const double value : edge.at(middle)) values.push_back(fourDoubles(value));
-    std::vector<FourPoses> groups(kinematics.state().groups.size());
+    GroupPoses groups;
     std::vector<FourShapes> placed(robot.shapes().size());
     const Eigen::Vector3d origin(0.3, -2.0, 1.0);
     forwardKinematics(kinematics, values, Pose::Identity(), nullptr, groups);
-    robot.place(groups, nullptr, origin, placed);
-    for (std::size_t i = 0; i < placed.size(); ++i) bounds.findPart(i, {groups, placed, origin, 1, half}, memory);
+    robot.place(groups.in_world, nullptr, origin, placed);
+    for (std::size_t i = 0; i < placed.size(); ++i) bounds.findPart(i, {groups.in_world, placed, origin, 1, half}, memory);
   }
 
   const Kinematics kinematics;
