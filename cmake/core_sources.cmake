@@ -88,6 +88,7 @@ set(HGRID_CORE_SOURCES
   src/narrow/enclosure.cpp
   src/narrow/gjk.cpp
   src/narrow/inner_spheres.cpp
+  src/narrow/mesh_hull.cpp
   src/narrow/mesh_pair.cpp
   src/narrow/mesh_solid.cpp
   src/narrow/mesh_tree.cpp

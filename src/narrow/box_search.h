@@ -34,9 +34,10 @@ class BoxSearch {
       : BoxSearch(a, b, centered(a, b, a_from_b), centered(b, a, a_from_b.inverse())) {}
 
   /// Calls visit(i, j) for the pairs of triangles whose boxes are within a limit [m], near boxes early. `visit` returns
-  /// the new limit, or a number less than 0 to end the search.
-  template <class Visit>
-  void run(double limit, const Visit& visit) {
+  /// the new limit, or a number less than 0 to end the search. isFarther(i, j, limit) may return true if all triangles
+  /// below node i of the first tree and node j of the second are farther apart than the limit; they are then left out.
+  template <class Visit, class IsFarther>
+  void run(double limit, const Visit& visit, const IsFarther& isFarther) {
     setLimit(limit);
     waiting_[0] = {0, 0, 0};
     count_ = 1;
@@ -46,6 +47,10 @@ class BoxSearch {
       const BoxNode &node_a = a_[next.first / 4], &node_b = b_[next.second / 4];
       const std::size_t lane_a = next.first % 4, lane_b = next.second % 4;
       const std::int32_t first = node_a.child[lane_a], second = node_b.child[lane_b];
+      if (first >= 0 && second >= 0 &&
+          isFarther(static_cast<std::size_t>(first), static_cast<std::size_t>(second), limit)) {
+        continue;
+      }
       if (first < 0 && second < 0) {
         const double rest = visit(static_cast<std::size_t>(~first), static_cast<std::size_t>(~second));
         if (rest < 0.0) return;

@@ -49,42 +49,62 @@ struct TriangleMeter {
   double size;  // [m] for gapOfTriangles()
 };
 
+/// For BoxSearch::run(): lets the boxes alone decide.
+constexpr auto kNoProof = [](std::size_t, std::size_t, double) { return false; };
+
 /// Returns the least gap of two parts; it is infinite if it is larger than `up_to` [m].
-template <class Meter>
-CoreGap leastGap(BoxSearch search, const Meter& measure, double up_to) {
+template <class Meter, class IsFarther>
+CoreGap leastGap(BoxSearch search, const Meter& measure, double up_to, const IsFarther& isFarther) {
   CoreGap best;
   double least = best.lower = std::numeric_limits<double>::infinity();  // of the lower bounds of all parts
-  search.run(up_to, [&](std::size_t i, std::size_t j) {
+  const auto visit = [&](std::size_t i, std::size_t j) {
     const double enough = std::min(up_to, best.upper);
     const CoreGap gap = measure(i, j, enough);
     least = std::min(least, gap.lower);
     if (gap.lower <= 0.0 || (gap.upper < best.upper && gap.lower <= enough)) best = gap;
     return best.lower <= 0.0 ? -1.0 : std::min(up_to, best.upper);
-  });
+  };
+  search.run(up_to, visit, isFarther);
   best.lower = std::min(best.lower, least);
   return best;
 }
 
 template <class Meter>
 void allMeetings(BoxSearch search, const Meter& measure, double reach, const MeshTree::Met& met) {
-  search.run(reach, [&](std::size_t i, std::size_t j) {
+  const auto visit = [&](std::size_t i, std::size_t j) {
     const CoreGap gap = measure(i, j, reach);
     return gap.lower > reach || met(gap) ? reach : -1.0;
-  });
+  };
+  search.run(reach, visit, kNoProof);
 }
 
 }  // namespace
 
 MeshTree::MeshTree(const TriangleMesh& mesh) : triangles_(trianglesOf(mesh)), boxes_(boxTreeOf(triangles_)) {}
 
+void MeshTree::makeHulls() const {
+  std::call_once(hulls_made_, [this] {
+    if (triangles_.size() > kMostTriangles) return;
+    hulls_ = hullsOf(boxes_, triangles_);
+    known_hulls_.store(hulls_.data(), std::memory_order_release);
+  });
+}
+
 CoreGap MeshTree::gapTo(const ConvexSolid& solid, const Pose& mesh_from_solid, double up_to) const {
   return leastGap(BoxSearch(boxes_, solid.box(), mesh_from_solid), CoreMeter{triangles_, solid.core(), mesh_from_solid},
-                  up_to);
+                  up_to, kNoProof);
 }
 
 CoreGap MeshTree::gapTo(const MeshTree& other, const Pose& mesh_from_other, double up_to) const {
+  const MeshHull *const hulls = known_hulls_.load(std::memory_order_acquire), *const other_hulls =
+                                                                                  other.known_hulls_.load(
+                                                                                      std::memory_order_acquire);
+  const auto haveHullsApart = [&](std::size_t i, std::size_t j, double limit) {
+    return hulls != nullptr && other_hulls != nullptr && hulls[i].isApart(other_hulls[j], mesh_from_other, limit);
+  };
   return leastGap(BoxSearch(boxes_, other.boxes_, mesh_from_other),
-                  TriangleMeter(triangles_, boxes_, other.triangles_, other.boxes_, mesh_from_other), up_to);
+                  TriangleMeter(triangles_, boxes_, other.triangles_, other.boxes_, mesh_from_other), up_to,
+                  haveHullsApart);
 }
 
 void MeshTree::meetings(const ConvexSolid& solid, const Pose& mesh_from_solid, double reach, const Met& met) const {

@@ -61,6 +61,11 @@ double compare(const TriangleMesh& first, const TriangleMesh& second, const Pose
   const MeshTree a(first), b(second);
   const CoreGap gap = a.gapTo(b, first_from_second, kInfinity),
                 swapped = b.gapTo(a, first_from_second.inverse(), kInfinity);
+  a.makeHulls();
+  b.makeHulls();
+  const CoreGap with_hulls = a.gapTo(b, first_from_second, kInfinity);
+  EXPECT_EQ(with_hulls.upper, gap.upper);
+  EXPECT_EQ(with_hulls.lower, gap.lower);
   for (const CoreGap& found : {gap, swapped}) {
     EXPECT_NEAR(found.upper, expected, kAccuracy * (1.0 + expected));
     EXPECT_TRUE(found.lower == found.upper || found.lower == 0.0);
@@ -164,6 +169,8 @@ TEST(MeshTree, ReturnsNothingBeyondTheLimitAndTheSameBelowIt) {
     const MeshTree a(randomMesh(random)), b(randomMesh(random));
     const Pose pose = randomPose(random, 2.0);
     const CoreGap gap = a.gapTo(b, pose, kInfinity);
+    if (i % 2 == 0) a.makeHulls();
+    if (i % 4 == 0) b.makeHulls();
     if (gap.lower <= 0.0) continue;  // contact is never beyond the limit
     for (const double limit : {0.0, 0.5 * gap.upper, (1.0 - 1e-9) * gap.upper}) {
       EXPECT_EQ(a.gapTo(b, pose, limit).upper, kInfinity);

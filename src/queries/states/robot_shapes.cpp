@@ -31,6 +31,12 @@ Eigen::AlignedBox3f boundsOf(const TiltedBox<float>& box) {
 /// Returns the volume [m^3] of a box.
 float volume(const TiltedBox<float>& box) { return 8.0f * box.half[0] * box.half[1] * box.half[2]; }
 
+/// Prepares a mesh of the robot, because it will be measured again and again.
+void makeHulls(const BodyShape& shape) {
+  const auto* const mesh = dynamic_cast<const MeshSolid*>(shape.solid.get());
+  if (mesh != nullptr) mesh->makeHulls();
+}
+
 /// Returns the part of a frame's name that comes before the name of the link; empty if there is none.
 std::string prefixOf(const std::string& frame, const std::string& link) {
   if (frame.size() <= link.size() || frame.compare(frame.size() - link.size(), link.size(), link) != 0) return {};
@@ -227,6 +233,7 @@ void RobotShapes::addShapesOf(const Snapshot& snapshot, const QueryScope& scope,
     for (std::uint32_t i = 0; i < shapes.size(); ++i) {
       const Pose group_from_shape = own.group_from_body * shapes[i].body_from_shape;
       const TiltedBox<float> box = tiltedBoxOf(shapes[i], group_from_shape, 1e-6);
+      makeHulls(shapes[i]);
       shapes_.push_back({own.body, i, own.group, group_from_shape, &shapes[i], box, coverOf(shapes[i], box),
                          FourSpheres(spheresInside(shapes[i], group_from_shape)), MeshClearance(shapes[i])});
     }

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: the hgrid_proximity authors
+#include "narrow/mesh_hull.h"
+
+#include <algorithm>
+
+#include "narrow/gjk.h"
+
+namespace hgrid {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+constexpr int kMostDirections = 3;  // most hulls that are apart are proved to be so in one or two steps
+// Hulls that overlap by more than this part of the smaller one in the first directions are probably not apart.
+constexpr double kDeep = 0.8;
+// Relative to the size of a hull: a point that is outside by less than this is not a corner.
+constexpr double kInside = 1e-7;
+// Relative to the sizes of the hulls. It contains kInside, and eight roundings to float of a coordinate along a
+// direction.
+constexpr double kCornerRounding = 1e-6;
+// Relative to the coordinates of the centers. The way between the centers is computed in double.
+constexpr double kWayRounding = 1e-12;
+
+bool isLess(const Vector& a, const Vector& b) {
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+}
+
+/// Returns the points that are not in the convex hull of the others (Clarkson 1994, "More output-sensitive geometric
+/// algorithms").
+/// @param rounding  [m] points that are outside by less than this may be missing
+std::vector<Vector> cornersOf(const std::vector<Vector>& points, double rounding) {
+  std::vector<Vector> corners;
+  std::vector<bool> is_corner(points.size());
+  const auto add = [&](std::size_t i) {
+    corners.push_back(points[i]);
+    is_corner[i] = true;
+  };
+  add(0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    while (!is_corner[i]) {
+      const CoreGap gap = gapOf(ConvexCore::hull(&points[i], 1), ConvexCore::hull(corners.data(), corners.size()),
+                                Pose::Identity(), rounding);
+      if (gap.upper <= rounding) break;
+      const Vector outward = gap.on_first - gap.on_second;
+      std::size_t farthest = i;
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        if (outward.dot(points[k] - points[farthest]) > 0.0) farthest = k;
+      }
+      add(is_corner[farthest] ? i : farthest);  // it can only be a known corner by rounding
+    }
+  }
+  return corners;
+}
+
+/// Returns whether a child of a node is another node.
+bool hasNodesBelow(const BoxNode& node) {
+  return std::any_of(node.child, node.child + node.count, [](std::int32_t child) { return child >= 0; });
+}
+
+/// Adds the corners of all triangles below a node.
+void addPoints(const BoxTree& tree, const std::vector<Triangle>& triangles, std::size_t number,
+               std::vector<Vector>& points) {
+  const BoxNode& node = tree.nodes[number];
+  for (std::int32_t i = 0; i < node.count; ++i) {
+    if (node.child[i] >= 0) {
+      addPoints(tree, triangles, static_cast<std::size_t>(node.child[i]), points);
+    } else {
+      const Triangle& triangle = triangles[static_cast<std::size_t>(~node.child[i])];
+      points.insert(points.end(), triangle.begin(), triangle.end());
+    }
+  }
+}
+
+}  // namespace
+
+MeshHull::MeshHull(std::vector<Vector> points) {
+  std::sort(points.begin(), points.end(), isLess);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.empty() || points.size() > kMostPoints) return;
+  Vector low = points.front(), high = points.front();
+  for (const Vector& point : points) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  center_ = 0.5 * (low + high);
+  const std::vector<Vector> corners = cornersOf(points, kInside * 0.5 * (high - low).norm());
+  count_ = corners.size();
+  blocks_.resize((count_ + 3) / 4);
+  for (std::size_t i = 0; i < 4 * blocks_.size(); ++i) {
+    const Vector corner = corners[std::min(i, count_ - 1)] - center_;
+    Block& block = blocks_[i / 4];
+    block.x[i % 4] = static_cast<float>(corner.x());
+    block.y[i % 4] = static_cast<float>(corner.y());
+    block.z[i % 4] = static_cast<float>(corner.z());
+    reach_ = std::max(reach_, corner.norm());
+  }
+}
+
+bool MeshHull::isApart(const MeshHull& other, const Pose& this_from_other, double reach) const {
+  if (blocks_.empty() || other.blocks_.empty()) return false;
+  const auto& turn = this_from_other.linear();
+  const Vector other_center = this_from_other * other.center_, way = other_center - center_;
+  const double length = way.norm(), rounding = kCornerRounding * (reach_ + other.reach_) +
+                                               kWayRounding * (center_.norm() + other_center.norm());
+  const double least = (reach + rounding) * (1.0 + 1e-6);
+  if (!(length > least)) return false;
+  const double deep = -kDeep * std::min(reach_, other.reach_);
+  Vector direction = way / length;
+  for (int step = 0; step < kMostDirections; ++step) {
+    const Vector back = turn.transpose() * -direction;
+    const float own = farthestAlong(direction), others = other.farthestAlong(back);
+    const double gap = direction.dot(way) - static_cast<double>(own) - static_cast<double>(others);
+    if (gap > least) return true;
+    if (gap < deep) return false;
+    const Vector between = way + turn * other.cornerAt(back, others) - cornerAt(direction, own);
+    const double squared = between.squaredNorm();
+    if (!(squared > least * least)) return false;
+    direction -= (2.0 * direction.dot(between) / squared) * between;
+  }
+  return false;
+}
+
+/// Returns the largest coordinate of a corner along a direction, relative to center_ [m].
+float MeshHull::farthestAlong(const Vector& direction) const {
+  const Four x = allFour(static_cast<float>(direction.x())), y = allFour(static_cast<float>(direction.y())),
+             z = allFour(static_cast<float>(direction.z()));
+  const auto along = [&](const Block& block) { return block.x * x + block.y * y + block.z * z; };
+  // Two maxima, so that a step need not wait for the step before.
+  Four most = along(blocks_.back()), other_most = most;
+  for (std::size_t i = 0; i + 1 < blocks_.size(); i += 2) {
+    most = greatest(along(blocks_[i]), most);
+    other_most = greatest(along(blocks_[i + 1]), other_most);
+  }
+  most = greatest(most, other_most);
+  return std::max({most[0], most[1], most[2], most[3]});
+}
+
+/// Returns the corner with this coordinate along a direction, relative to center_ [m].
+/// @param along  the result of farthestAlong()
+Vector MeshHull::cornerAt(const Vector& direction, float along) const {
+  const Four x = allFour(static_cast<float>(direction.x())), y = allFour(static_cast<float>(direction.y())),
+             z = allFour(static_cast<float>(direction.z()));
+  const auto holds = [&](const Block& block) {
+    return bitsOf(reinterpret_cast<FourCounts>(block.x * x + block.y * y + block.z * z >= allFour(along)));
+  };
+  std::size_t number = 0;
+  while (number + 1 < blocks_.size() && holds(blocks_[number]) == 0) ++number;
+  const Block& block = blocks_[number];
+  const unsigned bits = holds(block);
+  std::size_t lane = 0;
+  while (lane < 3 && (bits >> lane & 1u) == 0) ++lane;
+  return {static_cast<double>(block.x[lane]), static_cast<double>(block.y[lane]), static_cast<double>(block.z[lane])};
+}
+
+std::vector<MeshHull> hullsOf(const BoxTree& tree, const std::vector<Triangle>& triangles) {
+  std::vector<MeshHull> hulls;
+  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+    std::vector<Vector> points;  // node 0 only holds the root
+    if (i > 0 && hasNodesBelow(tree.nodes[i])) addPoints(tree, triangles, i, points);
+    hulls.emplace_back(std::move(points));
+  }
+  return hulls;
+}
+
+}  // namespace hgrid
