@@ -16,9 +16,9 @@ struct FourShapes {
 
 /// Returns for each lane whether the axis-aligned boxes of two shapes are at most `by` [m] apart along each axis.
 inline unsigned overlapping(const FourShapes& a, const FourShapes& b, const Four& by) {
-  auto lanes = (a.min[0] <= b.max[0] + by) & (b.min[0] <= a.max[0] + by);
-  for (std::size_t k = 1; k < 3; ++k) lanes &= (a.min[k] <= b.max[k] + by) & (b.min[k] <= a.max[k] + by);
-  return bitsOf(reinterpret_cast<FourCounts>(lanes));
+  Four gap = greatest(a.min[0] - b.max[0], b.min[0] - a.max[0]);
+  for (std::size_t k = 1; k < 3; ++k) gap = greatest(gap, greatest(a.min[k] - b.max[k], b.min[k] - a.max[k]));
+  return bitsOf(reinterpret_cast<FourCounts>(gap <= by));
 }
 
 /// Returns for each lane whether the box of a shape and `b`, which is relative to the origin of the snapshot, are at

@@ -40,6 +40,7 @@ void StateMemory::prepare(const Kinematics& kinematics, const RobotShapes& robot
   spheres_known.resize(shapes);
   shape_reach.resize(shapes);
   pair_reach.resize(robot.selfPairs().size());
+  self_near.resize(robot.selfPairs().size());
   from.resize(variables);
   difference.resize(variables);
 }
@@ -121,12 +122,32 @@ void StateSearch::sortContacts(std::size_t lane) {
   });
 }
 
+/// Finds the self pairs whose axis-aligned boxes are within reach in an open state, and writes them to
+/// StateMemory::self_near. The loop has no branches, because they would often be mispredicted.
+/// @returns how many there are
+std::size_t StateSearch::findSelfBoxes() {
+  const std::vector<SelfPair>& pairs = robot_.selfPairs();
+  const std::size_t size = pairs.size();
+  const unsigned open = open_;
+  StateMemory::SelfNear* const near = scratch_.self_near.data();
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    const FourShapes &a = scratch_.placed[pairs[i].first], &b = scratch_.placed[pairs[i].second];
+    const unsigned lanes = overlapping(a, b, scratch_.pair_reach[i]) & open;
+    near[count] = {static_cast<std::uint32_t>(i), lanes};
+    count += lanes != 0 ? 1 : 0;
+  }
+  return count;
+}
+
 void StateSearch::findSelf() {
-  for (std::size_t i = 0; i < robot_.selfPairs().size(); ++i) {
+  const std::size_t count = findSelfBoxes();
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t i = scratch_.self_near[k].pair;
     const SelfPair& pair = robot_.selfPairs()[i];
     const Four& reach = scratch_.pair_reach[i];
     const FourShapes &a = scratch_.placed[pair.first], &b = scratch_.placed[pair.second];
-    const unsigned lanes = overlapping(a, b, reach) & open_;
+    const unsigned lanes = scratch_.self_near[k].lanes & open_;
     if (lanes == 0) continue;
     const Separation<Four> apart = separationOf(a.box, b.box, reach);
     unsigned near = 0;
@@ -134,8 +155,7 @@ void StateSearch::findSelf() {
       if (mayReach({apart.along_faces[lane], apart.along_edges[lane]}, reach[lane])) near |= 1u << lane;
     });
     forEachLane(near & ~farFromMesh(pair, reach, near), [&](std::size_t lane) {
-      consider(lane, {apart.along_faces[lane], reach[lane], With::self, pair.first, pair.second,
-                      static_cast<std::uint32_t>(i)});
+      consider(lane, {apart.along_faces[lane], reach[lane], With::self, pair.first, pair.second, i});
     });
     if (open_ == 0) return;
   }

@@ -75,6 +75,11 @@ struct StateMemory {
   std::vector<std::uint8_t>
       map_far;  // for each map and each shape of the robot: bits of the states in which it is far from the map
   std::vector<Four> pair_reach;  // [m] for each pair of RobotShapes::selfPairs(): how near its shapes matter
+  struct SelfNear {
+    std::uint32_t pair;  // index into RobotShapes::selfPairs()
+    unsigned lanes;      // bit i: whether the boxes of its shapes are near each other in state i
+  };
+  std::vector<SelfNear> self_near;  // has room for all pairs
   std::vector<FourDoubles> from, difference;  // for each variable: value at the beginning of an edge, and its change
   std::array<EdgeInWork, 4> edges;
   std::vector<double> gradient;  // for each variable
@@ -126,6 +131,7 @@ class StateSearch {
   const RobotInState& robotIn(std::size_t lane) const { return robots_[lane]; }
 
  private:
+  std::size_t findSelfBoxes();
   void findSelf();
   unsigned farFromMesh(const SelfPair& pair, const Four& reach, unsigned lanes) const;
   bool isFarFromMesh(std::size_t lane, const NearShapes& near) const;
