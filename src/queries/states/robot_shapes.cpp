@@ -234,8 +234,10 @@ void RobotShapes::addShapesOf(const Snapshot& snapshot, const QueryScope& scope,
       const Pose group_from_shape = own.group_from_body * shapes[i].body_from_shape;
       const TiltedBox<float> box = tiltedBoxOf(shapes[i], group_from_shape, 1e-6);
       makeHulls(shapes[i]);
-      shapes_.push_back({own.body, i, own.group, group_from_shape, &shapes[i], box, coverOf(shapes[i], box),
-                         FourSpheres(spheresInside(shapes[i], group_from_shape)), MeshClearance(shapes[i])});
+      const bool is_straight = group_from_shape.linear() == Eigen::Matrix3d::Identity();
+      shapes_.push_back({own.body, i, own.group, group_from_shape, &shapes[i], box, is_straight,
+                         coverOf(shapes[i], box), FourSpheres(spheresInside(shapes[i], group_from_shape)),
+                         MeshClearance(shapes[i])});
     }
   }
   std::stable_sort(shapes_.begin() + before, shapes_.end(),
@@ -289,8 +291,8 @@ std::uint32_t RobotShapes::meshOf(std::uint32_t first, std::uint32_t second) con
   return b.clearance.exists() && volume(b.in_group) > volume(a.in_group) ? second : first;
 }
 
-void RobotShapes::place(const std::vector<FourPoses>& groups, const GroupChange* changes,
-                        const Eigen::Vector3d& origin, std::vector<FourShapes>& placed) const {
+void RobotShapes::place(const std::vector<FourPoses>& groups, const GroupChange* changes, const Eigen::Vector3d& origin,
+                        std::vector<FourShapes>& placed) const {
   for (std::size_t i = 0; i < shapes_.size();) {
     const std::uint32_t group = shapes_[i].group;
     if (changes != nullptr && changes[group] == GroupChange::none) {
@@ -300,10 +302,13 @@ void RobotShapes::place(const std::vector<FourPoses>& groups, const GroupChange*
     const GroupFloats pose(groups[group], origin);
     for (; i < shapes_.size() && shapes_[i].group == group; ++i) {
       const TiltedBox<float>& local = shapes_[i].in_group;
+      const bool is_straight = shapes_[i].is_straight;
       FourShapes& result = placed[i];
       float size = 0.0f;
       for (std::size_t k = 0; k < 3; ++k) {
-        for (std::size_t axis = 0; axis < 3; ++axis) result.box.axes[axis][k] = pose.turned(local.axes[axis], k);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          result.box.axes[axis][k] = is_straight ? pose.turn[3 * k + axis] : pose.turned(local.axes[axis], k);
+        }
         result.box.center[k] = pose.turned(local.center, k) + pose.shift[k];
         result.box.half[k] = allFour(local.half[k]) + pose.rounding;
         size += std::abs(local.center[k]);

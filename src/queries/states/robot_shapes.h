@@ -31,6 +31,7 @@ struct RobotShape {
   Pose group_from_shape;
   const BodyShape* what;      ///< the shape itself; the snapshot keeps it alive
   TiltedBox<float> in_group;  ///< box around the padded shape, in the frame of the group
+  bool is_straight;           ///< whether the axes of this box are those of the frame of the group, as in most robots
   SphereCover cover;          ///< spheres that contain the padded shape
   FourSpheres spheres;        ///< spheres inside the padded shape, in the frame of the group
   MeshClearance clearance;    ///< if the shape is a mesh: tells what is far from it
