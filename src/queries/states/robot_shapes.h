@@ -100,7 +100,7 @@ class RobotShapes {
   std::size_t counting_ = 0;
   std::vector<ShapeCluster> clusters_;
   std::vector<SelfPair> self_pairs_;
-  std::vector<bool> is_own_;         // by index of the body
+  std::vector<bool> is_own_;          // by index of the body
   std::vector<bool> carries_shapes_;  // by index of the rigid group
 };
 

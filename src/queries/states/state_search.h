@@ -64,11 +64,11 @@ struct StateMemory {
     std::uint32_t variable, column;  // index of a variable, and of its column in the batch
   };
   std::vector<Column> columns;
-  std::vector<GroupChange> changes;    // for each rigid group: from one state of the batch to the next
-  std::vector<FourDoubles> values;     // for each variable: its values in four states
-  GroupPoses groups;                   // of the robot
-  std::vector<FourShapes> placed;      // for each shape of the robot
-  std::vector<FourSpheres> spheres;    // for each shape of the robot, in each of the four states
+  std::vector<GroupChange> changes;  // for each rigid group: from one state of the batch to the next
+  std::vector<FourDoubles> values;   // for each variable: its values in four states
+  GroupPoses groups;                 // of the robot
+  std::vector<FourShapes> placed;    // for each shape of the robot
+  std::vector<FourSpheres> spheres;  // for each shape of the robot, in each of the four states
   std::vector<std::uint8_t>
       spheres_known;              // for each shape of the robot: bit i: whether `spheres` has those of state i
   std::vector<Four> shape_reach;  // [m] for each shape of the robot: how near something outside the robot matters
@@ -79,7 +79,7 @@ struct StateMemory {
     std::uint32_t pair;  // index into RobotShapes::selfPairs()
     unsigned lanes;      // bit i: whether the boxes of its shapes are near each other in state i
   };
-  std::vector<SelfNear> self_near;  // has room for all pairs
+  std::vector<SelfNear> self_near;            // has room for all pairs
   std::vector<FourDoubles> from, difference;  // for each variable: value at the beginning of an edge, and its change
   std::array<EdgeInWork, 4> edges;
   std::vector<double> gradient;  // for each variable
