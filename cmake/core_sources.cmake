@@ -44,13 +44,16 @@ set(HGRID_CORE_SOURCES
   src/broadphase/hgrid/hgrid.cpp
   src/broadphase/hgrid/layer.cpp
   src/broadphase/hgrid/layer_plan.cpp
+  src/broadphase/hgrid/layer_sort.cpp
   src/broadphase/hgrid/nearest.cpp
   src/broadphase/hgrid/occupancy.cpp
   src/broadphase/hgrid/pair_collection.cpp
   src/broadphase/hgrid/pair_search.cpp
   src/broadphase/hgrid/queries.cpp
   src/broadphase/hgrid/query_tree.cpp
+  src/broadphase/hgrid/region_search.cpp
   src/broadphase/hgrid/region_tree.cpp
+  src/broadphase/hgrid/search_tasks.cpp
   src/broadphase/hgrid/shape_levels.cpp
   src/broadphase/isa.cpp
   src/broadphase/partitions.cpp

@@ -13,8 +13,12 @@ LINE_FILTER = "broadphase/kernels/line_filter_body.h"
 TREE_BODY = "broadphase/kernels/tree_body.h"
 AVX2 = "broadphase/kernels/simd_avx2.h"
 LAYER = "broadphase/hgrid/layer.cpp"
+LAYER_SORT = "broadphase/hgrid/layer_sort.cpp"
 ENGINE = "broadphase/hgrid/engine.cpp"
 PAIRS = "broadphase/hgrid/pair_search.cpp"
+PAIR_WRITER = "broadphase/hgrid/pair_writer.h"
+REGION_SEARCH = "broadphase/hgrid/region_search.cpp"
+SEARCH_TASKS = "broadphase/hgrid/search_tasks.cpp"
 BOUNDS_TREE = "broadphase/hgrid/bounds_tree.cpp"
 COLLECTION = "broadphase/hgrid/pair_collection.cpp"
 HGRID = "broadphase/hgrid/hgrid.cpp"
@@ -138,11 +142,11 @@ CORE = [
     ("the last lane is missing in the table of packed lanes", AVX2,
      "lane < 8", "lane < 7"),
 
-    ("a row of cells stays although it has become crowded", LAYER,
+    ("a row of cells stays although it has become crowded", LAYER_SORT,
      "sorts_with_plan_ % kSortsPerCheck == 0 && isRowCrowded(machine, threads)", "false"),
     ("more than a few boxes stay in one cell", "broadphase/hgrid/layer_plan.cpp",
      "  boxes_ = 0;\n", ""),
-    ("the bounds of a few boxes end at their minimum corners", LAYER,
+    ("the bounds of a few boxes end at their minimum corners", LAYER_SORT,
      "level.around.max[axis] = upper[axis + 1];", "level.around.max[axis] = level.around.min[axis];"),
     ("the last box of a few in one cell is not tested", PAIRS_BODY,
      "i + 1, level->end - i - 1, found)", "i + 1, level->end - i - 2, found)"),
@@ -182,7 +186,7 @@ CORE = [
      "return rare <= 2.0 * rare_boxes_", "return true || rare <= 2.0 * rare_boxes_"),
     ("levels by shape ignore that lengths differ", "broadphase/hgrid/shape_levels.cpp",
      "(shape >> i & 1u) != 0", "false"),
-    ("the reach is a length that was rounded down", LAYER,
+    ("the reach is a length that was rounded down", LAYER_SORT,
      "std::nextafter(total.sizes[4 * i + axis], kFloatInfinity)", "total.sizes[4 * i + axis]"),
     ("a box returns to a cell that it has left", LAYER,
      "position < level.start[cell] || position >= level.start[cell + 1]", "false"),
@@ -209,13 +213,13 @@ CORE = [
     ("a removed box of the moving layer comes back", ENGINE,
      "started > 0 || moving_changed || ", "started > 0 || "),
 
-    ("a level is not tested against the next coarser one", PAIRS,
+    ("a level is not tested against the next coarser one", SEARCH_TASKS,
      "later = level + 1", "later = level + 2"),
-    ("the boxes of the larger level that ask are those of the smaller one", PAIRS,
+    ("the boxes of the larger level that ask are those of the smaller one", REGION_SEARCH,
      "askSome(larger, others, smaller);", "askSome(smaller, others, larger);"),
-    ("boxes of different regions form no pairs", PAIRS,
+    ("boxes of different regions form no pairs", REGION_SEARCH,
      "meetAll(layer, region, layer, last);", ""),
-    ("a region is tested against all regions except its neighbor", PAIRS,
+    ("a region is tested against all regions except its neighbor", REGION_SEARCH,
      "if (number >= least) meet", "if (number > least) meet"),
     ("the bounds of the first leaf leave out a box", BOUNDS_TREE,
      "level.end - begin);", "level.end - begin) - (number == 0);"),
@@ -223,21 +227,21 @@ CORE = [
      "tier < tier_count_; ++tier", "tier < 0; ++tier"),
     ("the bounds of 16 levels are those of the first", BOUNDS_TREE,
      "i < std::min(first + kernels::Tier::kFan, below.count)", "i < first + 1"),
-    ("the bounds of a region end at the minimum corner of its last box", LAYER,
+    ("the bounds of a region end at the minimum corner of its last box", LAYER_SORT,
      "std::nextafter(upper[axis] + level.reach[axis], kFloatInfinity)", "upper[axis]"),
-    ("two layers are tested in one order only", PAIRS,
+    ("two layers are tested in one order only", SEARCH_TASKS,
      "addTask(tasks, second, &first);", ""),
     ("boxes that were inserted one by one form no pairs", PAIRS,
      "{kMoving, kLoose}", "{kMoving}"),
     ("kept pairs remain after their second box has left", PAIRS,
      "used += isKept(pair) ? 1 : 0;", "used += layer_of[pair.first] <= kResting ? 1 : 0;"),
-    ("the pairs that threads find are not filtered", PAIRS,
+    ("the pairs that threads find are not filtered", PAIR_WRITER,
      "wanted_end_ = filter_.keep(pairs_, begin, end);", "wanted_end_ = end;"),
     ("the results of all threads are read from thread 0", PAIRS,
      "task.thread = thread;", "task.thread = 0;"),
-    ("the search does not notice that it exceeds the limit of pairs", PAIRS,
+    ("the search does not notice that it exceeds the limit of pairs", PAIR_WRITER,
      "if (all_pairs > bound_.pairs || all_overlaps", "if (all_overlaps"),
-    ("the search does not notice that it exceeds the limit of overlaps", PAIRS,
+    ("the search does not notice that it exceeds the limit of overlaps", PAIR_WRITER,
      "|| all_overlaps > bound_.overlaps) exceeded_.store", ") exceeded_.store"),
     ("the search does not count the overlaps of resting boxes", PAIRS,
      "kept_valid ? kept_overlaps : 0", "0"),
@@ -365,6 +369,14 @@ CORE = [
      "return true;"),
     ("a lattice answers for shapes that cannot be measured", "queries/states/robot_shapes.cpp",
      "if (!a.what->solid || !b.what->solid) return Structure::kNone;", ""),
+    ("convex hulls are apart although one of them is ignored", "narrow/mesh_hull.cpp",
+     "static_cast<double>(own) - static_cast<double>(others)", "static_cast<double>(own)"),
+    ("a corner of a mesh counts as inside its hull", "narrow/mesh_hull.cpp",
+     "constexpr double kInside = 1e-7;", "constexpr double kInside = 1e-2;"),
+    ("a group whose parent moves stays where it was", "queries/states/state_values.cpp",
+     "changes[i] = GroupChange::parent;", ""),
+    ("a group that carries a shape below it does not move", "queries/states/robot_shapes.cpp",
+     "if (carries_shapes_[i]) carries_shapes_[joints[i].parent] = true;", ""),
     ("shapes are far from a mesh although its padding is near", "queries/states/mesh_clearance.cpp",
      "reach + allFour(padding_)", "reach"),
     ("voxels in one layer around a block are not seen", DISTANCES, "box.min()[k] = (first[axis] - kMargin) * edge();",

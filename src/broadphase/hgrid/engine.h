@@ -11,36 +11,11 @@
 
 #include "broadphase/hgrid/layer.h"
 #include "broadphase/hgrid/query_tree.h"
+#include "broadphase/hgrid/region_search.h"
+#include "broadphase/hgrid/search_tasks.h"
 #include "hgrid_proximity/broadphase/hgrid.h"
 
 namespace hgrid {
-
-/// A part of a search for pairs. There are two kinds of tasks:
-///
-/// - A range of positions (see Layer) of one level. The task tests the boxes at these positions against the later boxes
-///   of this level, or against all boxes of another level.
-/// - A range of regions of a layer. The task tests the boxes in these regions against each other and against later
-///   regions, or against all boxes of another layer.
-struct SearchTask {
-  const kernels::Level* asking;  // level of the positions
-  const kernels::Level* asked;   // the other level; null: the same level
-  std::uint32_t begin, end;      // range of positions or of indices of regions
-  const Layer* layer = nullptr;  // layer of the regions; null: the task has positions
-  const Layer* other = nullptr;  // the other layer; null: the same layer
-  std::size_t boxes = 0;         // number of boxes in the range
-  // The result of the task: `found` pairs from index `first` on in SearchBuffers::parts[thread].
-  std::size_t thread = 0, first = 0, found = 0;
-  std::size_t to = 0;  // index of the task's first pair in the result of the search
-};
-
-/// Copies of boxes of one level: all boxes that may overlap boxes of another level.
-struct GatheredBoxes {
-  std::vector<std::uint32_t> levels;  // indices of the other levels whose bounds overlap the bounds of a level
-  // Positions of boxes of two levels: of those that overlap the bounds of the other level.
-  std::vector<std::uint32_t> positions, other_positions;
-  std::vector<float> bounds;
-  std::vector<std::uint32_t> ids;
-};
 
 /// Buffers of a search for pairs.
 struct SearchBuffers {

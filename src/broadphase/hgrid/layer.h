@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +15,7 @@
 namespace hgrid {
 
 constexpr std::size_t kWorthAThread = 16384;  ///< least number of boxes per thread for which another one saves time
+constexpr std::size_t kReadBeyond = 16;       ///< positions of a level that kernels may read beyond its last box
 
 /// Buffers for sorting. All layers of a grid share them. "By position" means: in the order that the boxes have before
 /// the sort.
@@ -32,6 +34,12 @@ struct Machine {
   const kernels::Kernels* kernels = nullptr;
   Workers* workers = nullptr;
   SortScratch* scratch = nullptr;
+
+  /// Returns how many threads sort a layer with this number of boxes.
+  std::size_t threadsFor(std::size_t boxes) const {
+    const auto most = static_cast<std::size_t>(workers->threads());
+    return std::max<std::size_t>(1, std::min(most, boxes / kWorthAThread));
+  }
 };
 
 /// A set of boxes that are sorted by region, level and cell, and stored as a structure of arrays. The "position" of a
@@ -106,24 +114,28 @@ class Layer {
  private:
   /// Up to so many boxes share one cell, because a plan would take longer than it saves.
   static constexpr std::size_t kFew = 16;
+  /// A grid of fewer boxes mostly stays in the cache. Of more, the sort copies the boxes when it first reads them.
+  static constexpr std::size_t kWorthCopying = std::size_t{1} << 18;
 
   bool isFew() const { return count_ <= kFew; }
   void reservePlan(std::size_t count, std::size_t levels, const Machine& machine);
-  void planOneRegion(const CellPlanner& planner, Rows rows, const Machine& machine);
-  void makePlan(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads);
-  void putIntoOneCell(const std::vector<Aabb>& boxes);
-  bool divide(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads);
-  void count(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads);
-  bool isRowCrowded(const Machine& machine, std::size_t threads) const;
-  double crowding(const Machine& machine, std::size_t threads) const;
-  void scatter(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads);
-  void describe(const SortScratch& scratch);
-  void checkBoxBounds() const;
-  bool fits(std::uint32_t position, const Aabb& box) const;
   void widen(std::size_t count);
   void point();
+  bool fits(std::uint32_t position, const Aabb& box) const;
+  void checkBoxBounds() const;
+
+  // Steps of sort() (layer_sort.cpp).
+  void putIntoOneCell(const std::vector<Aabb>& boxes);
+  void makePlan(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads);
+  void planOneRegion(const CellPlanner& planner, Rows rows, const Machine& machine);
+  bool divide(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine, std::size_t threads);
+  bool isRowCrowded(const Machine& machine, std::size_t threads) const;
+  double crowding(const Machine& machine, std::size_t threads) const;
   std::uint32_t* countsOf(std::size_t thread, std::size_t threads, const Machine& machine);
   const std::uint32_t* countsOf(std::size_t thread, std::size_t threads, const Machine& machine) const;
+  void count(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads);
+  void scatter(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads);
+  void describe(const SortScratch& scratch);
 
   std::uint64_t changes_ = 0;
   LayerPlan plan_;
