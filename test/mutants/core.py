@@ -10,8 +10,8 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COPY = ROOT / "build" / "mutants"
 PROGRAMS = COPY / "programs"  # one folder with test programs for each mutant that is being tested
-TESTS = ["geometry_test", "broadphase_test", "maps_test", "bodies_test", "pairs_test", "world_test", "history_test", "queries_test",
-         "distances_test", "explain_test", "planes_test"]
+TESTS = ["geometry_test", "broadphase_test", "maps_test", "bodies_test", "pairs_test", "world_test", "history_test",
+         "queries_test", "distances_test", "explain_test", "planes_test", "narrow_test", "states_test"]
 
 
 def prepare():
@@ -47,7 +47,8 @@ def build(name, file, text):
         compile_tests()
     finally:
         path.write_text(original)
-    first = file.split("/")[0] + "_test"  # the tests of the folder that contains the mutant run first
+    # The tests of the folder that contains the mutant run first.
+    first = "states_test" if "/states/" in file else file.split("/")[0] + "_test"
     return commands(name, sorted(TESTS, key=lambda test: (test != first, TESTS.index(test))))
 
 
