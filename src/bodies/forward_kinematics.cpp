@@ -10,17 +10,19 @@ namespace {
 /// Sets `world` to the product of two poses.
 void compose(const FourPoses& parent, const FourPoses& in_parent, FourPoses& world) {
   for (std::size_t row = 0; row < 3; ++row) {
-    const FourDoubles* const turn = parent.turn + 3 * row;
+    const FourDoubles* const row_of_parent = parent.turn + 3 * row;
     for (std::size_t column = 0; column < 3; ++column) {
-      world.turn[3 * row + column] = turn[0] * in_parent.turn[column] + turn[1] * in_parent.turn[3 + column] +
-                                     turn[2] * in_parent.turn[6 + column];
+      world.turn[3 * row + column] = row_of_parent[0] * in_parent.turn[column] +
+                                     row_of_parent[1] * in_parent.turn[3 + column] +
+                                     row_of_parent[2] * in_parent.turn[6 + column];
     }
-    world.shift[row] = turn[0] * in_parent.shift[0] + turn[1] * in_parent.shift[1] + turn[2] * in_parent.shift[2] +
-                       parent.shift[row];
+    world.shift[row] = row_of_parent[0] * in_parent.shift[0] + row_of_parent[1] * in_parent.shift[1] +
+                       row_of_parent[2] * in_parent.shift[2] + parent.shift[row];
   }
 }
 
-void turn(const JointMotion& joint, const FourDoubles& angle, FourPoses& in_parent) {
+/// Computes the pose of the group of a revolute joint, in the frame of the parent group.
+void poseAtAngle(const JointMotion& joint, const FourDoubles& angle, FourPoses& in_parent) {
   const SineCosine turned = sineCosine(angle);
   const FourDoubles versine = fourDoubles(1.0) - turned.cosine;
   for (std::size_t i = 0; i < 9; ++i) {
@@ -29,7 +31,8 @@ void turn(const JointMotion& joint, const FourDoubles& angle, FourPoses& in_pare
   for (std::size_t i = 0; i < 3; ++i) in_parent.shift[i] = fourDoubles(joint.shift[i]);
 }
 
-void slide(const JointMotion& joint, const FourDoubles& position, FourPoses& in_parent) {
+/// Computes the pose of the group of a prismatic joint.
+void poseAtShift(const JointMotion& joint, const FourDoubles& position, FourPoses& in_parent) {
   for (std::size_t i = 0; i < 9; ++i) in_parent.turn[i] = fourDoubles(joint.turn[0][i]);
   for (std::size_t i = 0; i < 3; ++i) in_parent.shift[i] = fourDoubles(joint.shift[i]) + position * joint.slide[i];
 }
@@ -44,8 +47,9 @@ Pose planarPose(const JointMotion& joint, double x, double y, double theta) {
   return joint.parent_from_plane * moved * joint.plane_from_child;
 }
 
-/// Moves the group of a planar or floating joint. Few robots have such joints, so this computes one state at a time.
-void moveFreely(const JointMotion& joint, const FourDoubles* values, FourPoses& in_parent) {
+/// Computes the pose of the group of a planar or floating joint. Few robots have such joints, so this computes one
+/// state at a time.
+void poseOfFreeJoint(const JointMotion& joint, const FourDoubles* values, FourPoses& in_parent) {
   for (std::size_t lane = 0; lane < 4; ++lane) {
     const auto value = [&](std::size_t part) { return values[joint.variable + part][lane]; };
     if (joint.kind == JointKind::planar) {
@@ -60,12 +64,16 @@ void moveFreely(const JointMotion& joint, const FourDoubles* values, FourPoses& 
 }
 
 /// Computes the pose that a joint gives its group, in the frame of the parent group.
-void moveJoint(const JointMotion& joint, const std::vector<FourDoubles>& values, FourPoses& in_parent) {
+void poseInParent(const JointMotion& joint, const std::vector<FourDoubles>& values, FourPoses& in_parent) {
   if (joint.kind == JointKind::planar || joint.kind == JointKind::floating) {
-    return moveFreely(joint, values.data(), in_parent);
+    return poseOfFreeJoint(joint, values.data(), in_parent);
   }
   const FourDoubles position = values[joint.variable] * joint.multiplier + fourDoubles(joint.offset);
-  joint.kind == JointKind::revolute ? turn(joint, position, in_parent) : slide(joint, position, in_parent);
+  if (joint.kind == JointKind::revolute) {
+    poseAtAngle(joint, position, in_parent);
+  } else {
+    poseAtShift(joint, position, in_parent);
+  }
 }
 
 }  // namespace
@@ -84,9 +92,9 @@ void forwardKinematics(const Kinematics& kinematics, const std::vector<FourDoubl
   poses.in_world.resize(joints.size());
   for (std::size_t lane = 0; changes == nullptr && lane < 4; ++lane) poses.in_world[0].set(lane, world_from_root);
   for (std::size_t i = 1; i < joints.size(); ++i) {
-    const GroupChange change = changes == nullptr ? GroupChange::joint : changes[i];
+    const GroupChange change = changeOf(changes, i);
     if (change == GroupChange::none) continue;
-    if (change == GroupChange::joint) moveJoint(joints[i], values, poses.in_parent[i]);
+    if (change == GroupChange::joint) poseInParent(joints[i], values, poses.in_parent[i]);
     compose(poses.in_world[joints[i].parent], poses.in_parent[i], poses.in_world[i]);
   }
 }

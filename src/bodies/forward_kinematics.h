@@ -62,10 +62,15 @@ struct FourPoses {
 
 /// Why the pose of a rigid group must be computed again, if only some variables have changed.
 enum class GroupChange : std::uint8_t {
-  none,    ///< it need not: it is the same, or nobody needs it
-  parent,  ///< its joint has the same position, but the pose of the parent group has changed
-  joint    ///< the position of its joint has changed
+  none,    ///< The pose is not computed again. It is the same, or nobody needs it; then it is that of an older state.
+  parent,  ///< The position of its joint is the same, but the pose of the parent group has changed.
+  joint    ///< The position of its joint has changed.
 };
+
+/// Returns the change of a group. @param changes  for each rigid group; null: all joints have changed
+inline GroupChange changeOf(const GroupChange* changes, std::size_t group) {
+  return changes == nullptr ? GroupChange::joint : changes[group];
+}
 
 /// The poses of all rigid groups in four states.
 struct GroupPoses {
@@ -77,7 +82,7 @@ struct GroupPoses {
 /// @param values           one value for each variable of `kinematics`
 /// @param world_from_root  pose of the first rigid group
 /// @param changes          for each rigid group; null: compute all
-/// @param poses            receives the poses; if `changes` is not null, those of an earlier call
+/// @param poses            receives the poses; if `changes` is not null, it must have the poses of an earlier call
 void forwardKinematics(const Kinematics& kinematics, const std::vector<FourDoubles>& values,
                        const Pose& world_from_root, const GroupChange* changes, GroupPoses& poses);
 

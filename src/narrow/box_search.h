@@ -37,7 +37,7 @@ class BoxSearch {
   /// the new limit, or a number less than 0 to end the search. isFarther(i, j, limit) may return true if all triangles
   /// below node i of the first tree and node j of the second are farther apart than the limit; they are then left out.
   template <class Visit, class IsFarther>
-  void run(double limit, const Visit& visit, const IsFarther& isFarther) {
+  void run(double limit, const Visit& visit, IsFarther&& isFarther) {
     setLimit(limit);
     waiting_[0] = {0, 0, 0};
     count_ = 1;

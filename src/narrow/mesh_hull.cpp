@@ -11,15 +11,16 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr int kMostDirections = 3;  // most hulls that are apart are proved to be so in one or two steps
-// Hulls that overlap by more than this part of the smaller one in the first directions are probably not apart.
+constexpr int kMostDirections = 3;  // if no direction up to here separates two hulls, they usually overlap
+// A direction along which two hulls overlap by more than this part of the radius of the smaller one ends the search.
 constexpr double kDeep = 0.8;
-// Relative to the size of a hull: a point that is outside by less than this is not a corner.
+// [half of the diagonal of the box around the points] A point that is outside the hull of the corners found so far by
+// less than this is not a corner.
 constexpr double kInside = 1e-7;
-// Relative to the sizes of the hulls. It contains kInside, and eight roundings to float of a coordinate along a
-// direction.
+// [radius] Bound of the errors of a hull: kInside, where half of the diagonal is at most 1.8 times the radius, and at
+// most eight roundings to float of a coordinate along a direction.
 constexpr double kCornerRounding = 1e-6;
-// Relative to the coordinates of the centers. The way between the centers is computed in double.
+// [center_size_ of both hulls + length of the way] Bound of the rounding errors of the way between the centers.
 constexpr double kWayRounding = 1e-12;
 
 bool isLess(const Vector& a, const Vector& b) {
@@ -74,6 +75,17 @@ void addPoints(const BoxTree& tree, const std::vector<Triangle>& triangles, std:
 
 }  // namespace
 
+/// A direction in floats.
+struct MeshHull::FloatDirection {
+  explicit FloatDirection(const Vector& direction)
+      : x(allFour(static_cast<float>(direction.x()))),
+        y(allFour(static_cast<float>(direction.y()))),
+        z(allFour(static_cast<float>(direction.z()))) {}
+  /// Returns the coordinates of four corners along the direction.
+  Four operator()(const Block& block) const { return block.x * x + block.y * y + block.z * z; }
+  Four x, y, z;
+};
+
 MeshHull::MeshHull(std::vector<Vector> points) {
   std::sort(points.begin(), points.end(), isLess);
   points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -84,6 +96,7 @@ MeshHull::MeshHull(std::vector<Vector> points) {
     high = high.cwiseMax(point);
   }
   center_ = 0.5 * (low + high);
+  center_size_ = center_.lpNorm<1>();
   const std::vector<Vector> corners = cornersOf(points, kInside * 0.5 * (high - low).norm());
   count_ = corners.size();
   blocks_.resize((count_ + 3) / 4);
@@ -93,39 +106,37 @@ MeshHull::MeshHull(std::vector<Vector> points) {
     block.x[i % 4] = static_cast<float>(corner.x());
     block.y[i % 4] = static_cast<float>(corner.y());
     block.z[i % 4] = static_cast<float>(corner.z());
-    reach_ = std::max(reach_, corner.norm());
+    radius_ = std::max(radius_, corner.norm());
   }
 }
 
 bool MeshHull::isApart(const MeshHull& other, const Pose& this_from_other, double reach) const {
   if (blocks_.empty() || other.blocks_.empty()) return false;
   const auto& turn = this_from_other.linear();
-  const Vector other_center = this_from_other * other.center_, way = other_center - center_;
-  const double length = way.norm(), rounding = kCornerRounding * (reach_ + other.reach_) +
-                                               kWayRounding * (center_.norm() + other_center.norm());
-  const double least = (reach + rounding) * (1.0 + 1e-6);
+  const Vector way = this_from_other * other.center_ - center_;
+  const double length = way.norm(), rounding = kCornerRounding * (radius_ + other.radius_) +
+                                               kWayRounding * (center_size_ + other.center_size_ + length);
+  const double least = (reach + rounding) * (1.0 + 1e-6), deepest = kDeep * std::min(radius_, other.radius_);
   if (!(length > least)) return false;
-  const double deep = -kDeep * std::min(reach_, other.reach_);
   Vector direction = way / length;
   for (int step = 0; step < kMostDirections; ++step) {
-    const Vector back = turn.transpose() * -direction;
-    const float own = farthestAlong(direction), others = other.farthestAlong(back);
+    const Vector back = turn.transpose() * -direction;  // in the frame of the other hull
+    const float own = mostAlong(direction), others = other.mostAlong(back);
     const double gap = direction.dot(way) - static_cast<double>(own) - static_cast<double>(others);
     if (gap > least) return true;
-    if (gap < deep) return false;
+    if (gap < -deepest) return false;
     const Vector between = way + turn * other.cornerAt(back, others) - cornerAt(direction, own);
     const double squared = between.squaredNorm();
     if (!(squared > least * least)) return false;
+    // The two corners are in the wrong order along the direction. Its mirror image has them in the right order.
     direction -= (2.0 * direction.dot(between) / squared) * between;
   }
   return false;
 }
 
 /// Returns the largest coordinate of a corner along a direction, relative to center_ [m].
-float MeshHull::farthestAlong(const Vector& direction) const {
-  const Four x = allFour(static_cast<float>(direction.x())), y = allFour(static_cast<float>(direction.y())),
-             z = allFour(static_cast<float>(direction.z()));
-  const auto along = [&](const Block& block) { return block.x * x + block.y * y + block.z * z; };
+float MeshHull::mostAlong(const Vector& direction) const {
+  const FloatDirection along(direction);
   // Two maxima, so that a step need not wait for the step before.
   Four most = along(blocks_.back()), other_most = most;
   for (std::size_t i = 0; i + 1 < blocks_.size(); i += 2) {
@@ -136,18 +147,16 @@ float MeshHull::farthestAlong(const Vector& direction) const {
   return std::max({most[0], most[1], most[2], most[3]});
 }
 
-/// Returns the corner with this coordinate along a direction, relative to center_ [m].
-/// @param along  the result of farthestAlong()
-Vector MeshHull::cornerAt(const Vector& direction, float along) const {
-  const Four x = allFour(static_cast<float>(direction.x())), y = allFour(static_cast<float>(direction.y())),
-             z = allFour(static_cast<float>(direction.z()));
-  const auto holds = [&](const Block& block) {
-    return bitsOf(reinterpret_cast<FourCounts>(block.x * x + block.y * y + block.z * z >= allFour(along)));
+/// Returns the corner with this coordinate along a direction, relative to center_ [m]. @param most  from mostAlong()
+Vector MeshHull::cornerAt(const Vector& direction, float most) const {
+  const FloatDirection along(direction);
+  const auto reaches = [&](const Block& block) {
+    return bitsOf(reinterpret_cast<FourCounts>(along(block) >= allFour(most)));
   };
   std::size_t number = 0;
-  while (number + 1 < blocks_.size() && holds(blocks_[number]) == 0) ++number;
+  while (number + 1 < blocks_.size() && reaches(blocks_[number]) == 0) ++number;
   const Block& block = blocks_[number];
-  const unsigned bits = holds(block);
+  const unsigned bits = reaches(block);
   std::size_t lane = 0;
   while (lane < 3 && (bits >> lane & 1u) == 0) ++lane;
   return {static_cast<double>(block.x[lane]), static_cast<double>(block.y[lane]), static_cast<double>(block.z[lane])};
@@ -156,8 +165,9 @@ Vector MeshHull::cornerAt(const Vector& direction, float along) const {
 std::vector<MeshHull> hullsOf(const BoxTree& tree, const std::vector<Triangle>& triangles) {
   std::vector<MeshHull> hulls;
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
-    std::vector<Vector> points;  // node 0 only holds the root
-    if (i > 0 && hasNodesBelow(tree.nodes[i])) addPoints(tree, triangles, i, points);
+    std::vector<Vector> points;
+    const bool holds_root = i == 0;
+    if (!holds_root && hasNodesBelow(tree.nodes[i])) addPoints(tree, triangles, i, points);
     hulls.emplace_back(std::move(points));
   }
   return hulls;

@@ -14,7 +14,7 @@ namespace hgrid {
 
 /// The convex hull of some triangles. It can prove quickly that it is apart from another hull. Immutable.
 ///
-/// Only its corners are known, not its faces: to find the farthest point in a direction, all corners are visited.
+/// Only its corners are known, not its faces. So all corners are visited to find the farthest point in a direction.
 class MeshHull {
  public:
   /// Of more different points, no corners are found, because that would take too long.
@@ -39,13 +39,16 @@ class MeshHull {
     Four x, y, z;
   };
 
-  float farthestAlong(const Eigen::Vector3d& direction) const;
-  Eigen::Vector3d cornerAt(const Eigen::Vector3d& direction, float along) const;
+  struct FloatDirection;
+
+  float mostAlong(const Eigen::Vector3d& direction) const;
+  Eigen::Vector3d cornerAt(const Eigen::Vector3d& direction, float most) const;
 
   std::vector<Block> blocks_;  // the last block repeats a corner; empty: the hull is not known
   std::size_t count_ = 0;
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();  // [m]
-  double reach_ = 0.0;                                // [m] no corner is farther from center_
+  double center_size_ = 0.0;                          // [m] sum of the sizes of its coordinates
+  double radius_ = 0.0;                               // [m] no corner is farther from center_
 };
 
 /// Returns for each node of a tree the hull of the triangles below it. Nodes whose children are all triangles, and the

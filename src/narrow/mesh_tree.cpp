@@ -49,12 +49,36 @@ struct TriangleMeter {
   double size;  // [m] for gapOfTriangles()
 };
 
-/// For BoxSearch::run(): lets the boxes alone decide.
-constexpr auto kNoProof = [](std::size_t, std::size_t, double) { return false; };
+/// For BoxSearch::run(): only the boxes decide what is left out.
+constexpr auto neverFarther = [](std::size_t, std::size_t, double) { return false; };
+
+/// For BoxSearch::run(): compares the hulls of two nodes. Stops doing so if it is seldom of use, as in a search of two
+/// meshes that touch in many places.
+class HullsAreFarther {
+ public:
+  /// @param a, b  hulls of the nodes of both trees; null: they are not known
+  HullsAreFarther(const MeshHull* a, const MeshHull* b, const Pose& a_from_b)
+      : a_(a), b_(b), a_from_b_(a_from_b), attempts_(a != nullptr && b != nullptr ? kAttempts : 0) {}
+
+  bool operator()(std::size_t i, std::size_t j, double limit) {
+    if (attempts_ <= 0) return false;
+    const bool apart = a_[i].isApart(b_[j], a_from_b_, limit);
+    attempts_ += apart ? kGained : -1;
+    return apart;
+  }
+
+ private:
+  static constexpr int kAttempts = 16;  // attempts at the beginning
+  static constexpr int kGained = 3;     // further attempts for each one that was of use
+
+  const MeshHull *const a_, *const b_;
+  const Pose& a_from_b_;
+  int attempts_;  // how many are left
+};
 
 /// Returns the least gap of two parts; it is infinite if it is larger than `up_to` [m].
 template <class Meter, class IsFarther>
-CoreGap leastGap(BoxSearch search, const Meter& measure, double up_to, const IsFarther& isFarther) {
+CoreGap leastGap(BoxSearch search, const Meter& measure, double up_to, IsFarther isFarther) {
   CoreGap best;
   double least = best.lower = std::numeric_limits<double>::infinity();  // of the lower bounds of all parts
   const auto visit = [&](std::size_t i, std::size_t j) {
@@ -75,7 +99,7 @@ void allMeetings(BoxSearch search, const Meter& measure, double reach, const Mes
     const CoreGap gap = measure(i, j, reach);
     return gap.lower > reach || met(gap) ? reach : -1.0;
   };
-  search.run(reach, visit, kNoProof);
+  search.run(reach, visit, neverFarther);
 }
 
 }  // namespace
@@ -92,19 +116,14 @@ void MeshTree::makeHulls() const {
 
 CoreGap MeshTree::gapTo(const ConvexSolid& solid, const Pose& mesh_from_solid, double up_to) const {
   return leastGap(BoxSearch(boxes_, solid.box(), mesh_from_solid), CoreMeter{triangles_, solid.core(), mesh_from_solid},
-                  up_to, kNoProof);
+                  up_to, neverFarther);
 }
 
 CoreGap MeshTree::gapTo(const MeshTree& other, const Pose& mesh_from_other, double up_to) const {
-  const MeshHull *const hulls = known_hulls_.load(std::memory_order_acquire), *const other_hulls =
-                                                                                  other.known_hulls_.load(
-                                                                                      std::memory_order_acquire);
-  const auto haveHullsApart = [&](std::size_t i, std::size_t j, double limit) {
-    return hulls != nullptr && other_hulls != nullptr && hulls[i].isApart(other_hulls[j], mesh_from_other, limit);
-  };
   return leastGap(BoxSearch(boxes_, other.boxes_, mesh_from_other),
                   TriangleMeter(triangles_, boxes_, other.triangles_, other.boxes_, mesh_from_other), up_to,
-                  haveHullsApart);
+                  HullsAreFarther(known_hulls_.load(std::memory_order_acquire),
+                                  other.known_hulls_.load(std::memory_order_acquire), mesh_from_other));
 }
 
 void MeshTree::meetings(const ConvexSolid& solid, const Pose& mesh_from_solid, double reach, const Met& met) const {

@@ -26,8 +26,8 @@ Vector randomDirection(Random& random) { return randomVector(random, -1.0, 1.0).
 /// Returns points of a shape of some size, somewhere: in a box, on a ball, in a plane or on a line. Some occur twice.
 Points randomPoints(Random& random) {
   const int kind = random.below(4);
-  const Pose pose = randomPose(random, random.chance(0.2) ? 1e3 : 1.0);
-  const Vector size = random.logUniform(1e-3, 10.0) * randomVector(random, 0.1, 1.0);
+  const Pose pose = randomPose(random, random.chance(0.3) ? random.logUniform(1.0, 1e6) : 1.0);
+  const Vector size = random.logUniform(1e-9, 10.0) * randomVector(random, 0.1, 1.0);
   Points points;
   for (int count = random.between(1, 60); count > 0; --count) {
     Vector point = kind == 1 ? randomDirection(random) : randomVector(random, -1.0, 1.0);
@@ -51,6 +51,13 @@ Vector pointInHull(Random& random, const Points& points) {
   return weights > 0.0 ? Vector(sum / weights) : points[std::size_t(random.below(int(points.size())))];
 }
 
+/// Returns an upper bound of the distance of two points, which is computed in extended precision.
+double distanceOf(const Vector& on_first, const Vector& on_second, const Pose& first_from_second) {
+  const Eigen::Transform<long double, 3, Eigen::Isometry> pose = first_from_second.cast<long double>();
+  const auto distance = (pose * on_second.cast<long double>() - on_first.cast<long double>()).norm();
+  return stepped(double(distance), 1);
+}
+
 double sizeOf(const Points& points) {
   Eigen::AlignedBox3d box;
   for (const Vector& point : points) box.extend(point);
@@ -69,11 +76,11 @@ TEST(MeshHull, IsNeverApartIfTwoPointsAreNear) {
   for (int i = 0; i < 20000; ++i) {
     SCOPED_TRACE("seed 1, case " + std::to_string(i));
     const Points first = randomPoints(random), second = randomPoints(random);
-    const double apart = random.chance(0.3) ? 0.0 : random.logUniform(1e-9, 10.0);
+    const double apart = random.chance(0.3) ? 0.0 : random.logUniform(1e-12, 10.0);
+    const Vector on_first = pointInHull(random, first), on_second = pointInHull(random, second);
     Pose pose = randomPose(random, 1.0);
-    pose.translation() +=
-        pointInHull(random, first) + apart * randomDirection(random) - pose * pointInHull(random, second);
-    ASSERT_FALSE(MeshHull(first).isApart(MeshHull(second), pose, apart * (1.0 + 1e-12)));
+    pose.translation() += on_first + apart * randomDirection(random) - pose * on_second;
+    ASSERT_FALSE(MeshHull(first).isApart(MeshHull(second), pose, distanceOf(on_first, on_second, pose)));
   }
 }
 
@@ -92,7 +99,7 @@ TEST(MeshHull, IsNeverApartIfCornersTouch) {
     const Vector on_first = farthest(first, direction),
                  on_second = farthest(second, pose.linear().transpose() * -direction);
     pose.translation() += on_first - pose * on_second;
-    ASSERT_FALSE(MeshHull(first).isApart(MeshHull(second), pose, 0.0));
+    ASSERT_FALSE(MeshHull(first).isApart(MeshHull(second), pose, distanceOf(on_first, on_second, pose)));
   }
 }
 

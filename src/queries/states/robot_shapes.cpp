@@ -295,7 +295,7 @@ void RobotShapes::place(const std::vector<FourPoses>& groups, const GroupChange*
                         std::vector<FourShapes>& placed) const {
   for (std::size_t i = 0; i < shapes_.size();) {
     const std::uint32_t group = shapes_[i].group;
-    if (changes != nullptr && changes[group] == GroupChange::none) {
+    if (changeOf(changes, group) == GroupChange::none) {
       ++i;
       continue;
     }

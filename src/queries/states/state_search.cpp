@@ -68,8 +68,7 @@ void StateSearch::place(unsigned open, bool first) {
   for (auto& found : scratch_.pairs) found.clear();
   const GroupChange* const changes = first ? nullptr : scratch_.changes.data();
   for (std::size_t i = 0; i < robot_.shapes().size(); ++i) {
-    const bool is_same = changes != nullptr && changes[robot_.shapes()[i].group] == GroupChange::none;
-    if (!is_same) scratch_.spheres_known[i] = 0;
+    if (changeOf(changes, robot_.shapes()[i].group) != GroupChange::none) scratch_.spheres_known[i] = 0;
   }
   robot_.place(scratch_.groups.in_world, changes, snapshot_.origin(), scratch_.placed);
 }

@@ -64,9 +64,9 @@ struct StateMemory {
     std::uint32_t variable, column;  // index of a variable, and of its column in the batch
   };
   std::vector<Column> columns;
-  std::vector<GroupChange> changes;  // for each rigid group: from one state of the batch to the next
+  std::vector<GroupChange> changes;  // for each rigid group: what changes from one state of the batch to the next
   std::vector<FourDoubles> values;   // for each variable: its values in four states
-  GroupPoses groups;                 // of the robot
+  GroupPoses groups;                 // of the robot; those of groups without shapes are of the first states only
   std::vector<FourShapes> placed;    // for each shape of the robot
   std::vector<FourSpheres> spheres;  // for each shape of the robot, in each of the four states
   std::vector<std::uint8_t>

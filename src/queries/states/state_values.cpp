@@ -117,11 +117,11 @@ void StateValues::findChanges(const RobotShapes& robot) {
   std::vector<GroupChange>& changes = scratch_.changes;
   changes.assign(joints.size(), GroupChange::none);
   for (std::size_t i = 1; i < joints.size(); ++i) {
+    if (!robot.carriesShapes(i)) continue;
     const std::uint32_t first = joints[i].variable, end = first + joints[i].variables();
     const bool moves = std::any_of(scratch_.columns.begin(), scratch_.columns.end(), [&](const auto& column) {
       return column.variable >= first && column.variable < end;
     });
-    if (!robot.carriesShapes(i)) continue;
     if (moves) {
       changes[i] = GroupChange::joint;
     } else if (changes[joints[i].parent] != GroupChange::none) {
