@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <thread>
 
 #include "test/queries/states/turning_arm.h"
@@ -115,6 +116,42 @@ TEST(StateAnswers, JointsMayBeNamedInAnyOrderAndOthersKeepTheirValues) {
       expectSame(answers, 0, expected, i);
     }
   }
+}
+
+// Joints that keep their positions move with the joints above them.
+TEST(StateAnswers, OfABatchWithSomeJointsAreThoseOfTheWholeStates) {
+  int batches = 0;
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const Case one(seed % 8 + 1);
+    const std::vector<JointVariable> variables = one.world.kinematics().variables();
+    StateBatch batch;
+    batch.others = one.states[0];
+    std::vector<std::vector<double>> states(one.states.size(), one.states[0]);
+    for (std::size_t k = 0; k < variables.size(); ++k) {
+      if (variables[k].quaternion >= 0 || random.chance(0.5)) continue;
+      batch.joints.push_back(variables[k].name);
+      for (std::size_t i = 0; i < states.size(); ++i) states[i][k] = one.states[i][k];
+    }
+    if (batch.joints.empty()) continue;
+    for (const std::vector<double>& state : states) {
+      for (std::size_t k = 0; k < variables.size(); ++k) {
+        const auto found = std::find(batch.joints.begin(), batch.joints.end(), variables[k].name);
+        if (found != batch.joints.end()) batch.positions.push_back(state[k]);
+      }
+    }
+    StateRequest request;
+    request.clearance = 0.05;
+    StateScratch scratch;
+    StateAnswers answers;
+    one.world.checker().checkStates(batch, request, scratch, answers);
+    ASSERT_EQ(answers.states.size(), states.size());
+    const StateAnswers expected = one.check(states, 0.05);
+    for (std::size_t i = 0; i < states.size(); ++i) expectSame(answers, i, expected, i);
+    ++batches;
+  }
+  EXPECT_GT(batches, 20);
 }
 
 TEST(StateAnswers, AnIgnoredBodyIsLeftOut) {
