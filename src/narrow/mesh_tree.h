@@ -30,7 +30,7 @@ class MeshTree {
   /// triangles, this takes some milliseconds; for more than kMostTriangles, no hulls are made. Any thread may call
   /// this.
   void makeHulls() const;
-  static constexpr std::size_t kMostTriangles = 4096;
+  static constexpr std::size_t kMostTriangles = 4096;  ///< of a mesh that has hulls
 
   /// Returns the gap between the triangles and the core of a convex solid, with points in the frame of the mesh. It is
   /// infinite if it is larger than `up_to` [m].
