@@ -11,8 +11,9 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr int kMostDirections = 3;  // if no direction up to here separates two hulls, they usually overlap
-// A direction along which two hulls overlap by more than this part of the radius of the smaller one ends the search.
+// The search ends after so many directions. Hulls that none of them separates usually overlap.
+constexpr int kMostDirections = 3;
+// The search also ends if two hulls overlap along a direction by more than this part of the radius of the smaller one.
 constexpr double kDeep = 0.8;
 // [half of the diagonal of the box around the points] A point that is outside the hull of the corners found so far by
 // less than this is not a corner.
@@ -128,7 +129,8 @@ bool MeshHull::isApart(const MeshHull& other, const Pose& this_from_other, doubl
     const Vector between = way + turn * other.cornerAt(back, others) - cornerAt(direction, own);
     const double squared = between.squaredNorm();
     if (!(squared > least * least)) return false;
-    // The two corners are in the wrong order along the direction. Its mirror image has them in the right order.
+    // Along the direction, the two corners overlap. Along its reflection at the plane perpendicular to `between`, they
+    // are apart. So this is the next direction.
     direction -= (2.0 * direction.dot(between) / squared) * between;
   }
   return false;
@@ -137,7 +139,7 @@ bool MeshHull::isApart(const MeshHull& other, const Pose& this_from_other, doubl
 /// Returns the largest coordinate of a corner along a direction, relative to center_ [m].
 float MeshHull::mostAlong(const Vector& direction) const {
   const FloatDirection along(direction);
-  // Two maxima, so that a step need not wait for the step before.
+  // The processor can compute two maxima at the same time, but not two steps of one maximum.
   Four most = along(blocks_.back()), other_most = most;
   for (std::size_t i = 0; i + 1 < blocks_.size(); i += 2) {
     most = greatest(along(blocks_[i]), most);

@@ -50,8 +50,6 @@ class MeshSolid final : public OrderedSolid {
   MeshSolid(const Shape& shape, std::shared_ptr<const PreparedMesh> mesh)
       : OrderedSolid(shape), mesh_(std::move(mesh)) {}
   const MeshTree& tree() const { return mesh_->tree; }
-  /// Calls MeshTree::makeHulls().
-  void makeHulls() const { mesh_->tree.makeHulls(); }
   const Enclosure& enclosure() const { return mesh_->enclosure; }
   const std::vector<Sphere>& innerSpheres() const { return mesh_->innerSpheres(); }
   const DistanceLattice* lattice() const { return mesh_->lattice(); }

@@ -68,7 +68,7 @@ std::optional<Vector> projected(const Prepared& triangle, const Vector& point) {
 
 /// Returns true only if another triangle is on one side of the plane of a triangle, and at least `enough` [m] from it.
 /// This quick test proves that most triangles that do not touch are apart.
-/// @param doubt  bound of the rounding errors of a height
+/// @param doubt  [m^3] bound of the rounding errors of a distance from the plane, times the length of the normal
 bool isBeyondPlane(const Prepared& triangle, const Triangle& other, double enough, double doubt) {
   const Vector normal = triangle.edges[0].cross(triangle.edges[1]);
   const auto height = [&](std::size_t i) { return normal.dot(other[i] - triangle.corners[0]); };

@@ -37,8 +37,8 @@ std::string uriOf(const char* method, const std::string& name) {
 }
 
 /// Asks the master of this node whether another node has taken the name of this node. Returns false if the master does
-/// not answer, because such a master has not requested the shutdown either. If the process of the master is stopped,
-/// this waits until it continues, and until then no other node can connect to this one.
+/// not answer: then the request to shut down came from another master. If the process of the master is stopped, this
+/// function waits until it continues. Meanwhile no other node can connect to this one.
 ///
 /// If this node registers something after another node took the name, this node has the name again, but the master has
 /// dropped what this node had registered before. So this also asks for the service that roscpp registers first.

@@ -3,7 +3,6 @@
 #include "broadphase/hgrid/layer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>

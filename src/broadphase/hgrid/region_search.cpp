@@ -37,7 +37,8 @@ void RegionSearch::across(const Layer& layer, std::uint32_t number, const Layer&
   meetAll(layer, layer.regions().region(number), other, 0);
 }
 
-/// Finds the pairs of a region's boxes with the boxes of the layer `other` on the levels with an index >= `least`.
+/// Finds the pairs of which one box is in `region`, and the other box is in the layer `other`.
+/// @param least  smallest index of the levels of `other` that are searched
 void RegionSearch::meetAll(const Layer& layer, const kernels::Region& region, const Layer& other, std::uint32_t least) {
   const kernels::LevelSet others = other.levelSet();
   for (std::uint32_t i = 0; i < region.levels; ++i) {

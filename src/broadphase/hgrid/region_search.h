@@ -19,7 +19,7 @@ struct GatheredBoxes {
   std::vector<std::uint32_t> ids;
 };
 
-/// Finds the pairs of the boxes in a region.
+/// Finds the pairs of boxes of which at least one is in a given region of a layer.
 class RegionSearch {
  public:
   RegionSearch(const kernels::Kernels& kernels, GatheredBoxes& gathered, kernels::PairSink* sink)

@@ -47,8 +47,8 @@ void addRegions(std::vector<SearchTask>& tasks, const Layer& layer, const Layer*
   }
 }
 
-/// Adds tasks that test the boxes of all regions of a layer against one level of another layer. Successive levels that
-/// overlap `asked` share tasks.
+/// Adds tasks that test the boxes of all regions of a layer against one level of another layer. If levels that
+/// follow each other overlap `asked`, a task may contain boxes of several of them.
 void addRegionsAcross(std::vector<SearchTask>& tasks, const Layer& layer, const kernels::Level& asked) {
   const std::vector<kernels::Level>& levels = layer.levels();
   const kernels::Level* first = nullptr;

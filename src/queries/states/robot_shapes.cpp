@@ -34,7 +34,7 @@ float volume(const TiltedBox<float>& box) { return 8.0f * box.half[0] * box.half
 /// Prepares a mesh of the robot, because it will be measured again and again.
 void makeHulls(const BodyShape& shape) {
   const auto* const mesh = dynamic_cast<const MeshSolid*>(shape.solid.get());
-  if (mesh != nullptr) mesh->makeHulls();
+  if (mesh != nullptr) mesh->tree().makeHulls();
 }
 
 /// Returns the part of a frame's name that comes before the name of the link; empty if there is none.

@@ -118,7 +118,7 @@ TEST(StateAnswers, JointsMayBeNamedInAnyOrderAndOthersKeepTheirValues) {
   }
 }
 
-// Joints that keep their positions move with the joints above them.
+// The positions of the other joints are the same in all states, but their links move with the joints above them.
 TEST(StateAnswers, OfABatchWithSomeJointsAreThoseOfTheWholeStates) {
   int batches = 0;
   for (unsigned seed = 1; seed <= 30; ++seed) {
