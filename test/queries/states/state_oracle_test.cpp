@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Compares StateChecker with an oracle that measures all shapes. HGRID_STATES sets the number of states.
+// Compares StateChecker with an oracle that measures all shapes. HGRID_TEST_CHECKED_STATES sets the number of states.
 #include <gtest/gtest.h>
 
 #include "test/queries/states/state_worlds.h"
