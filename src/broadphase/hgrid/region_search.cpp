@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "broadphase/hgrid/found_boxes.h"
 #include "broadphase/hgrid/search_tasks.h"
 
 namespace hgrid {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "broadphase/hgrid/found_boxes.h"
+
 namespace hgrid {
 namespace {
 
