@@ -5,11 +5,13 @@
 #include <limits>
 
 #include "test/support/brute_force.h"
+#include "test/support/expectations.h"
 #include "test/support/grids.h"
 
 namespace hgrid {
 namespace {
 
+using test::allIds;
 using test::foundBy;
 
 GridScale finest(double edge) {
@@ -75,8 +77,8 @@ TEST(HGridEdges, NearestBoxesOfPointsFarAway) {
     }
     HGrid grid;
     test::BruteForce brute_force;
-    grid.update(test::allIds(boxes.size()), boxes);
-    brute_force.update(test::allIds(boxes.size()), boxes);
+    grid.update(allIds(boxes.size()), boxes);
+    brute_force.update(allIds(boxes.size()), boxes);
     for (const double x : {1.0, 20.0, 1e4, 1e17, 1e38, 1e160, 1e300}) {
       for (const std::size_t count : {1u, 2u, 8u, 100u, 299u, 500u}) {
         SCOPED_TRACE("x " + std::to_string(x) + ", boxes: " + std::to_string(count));
