@@ -14,9 +14,9 @@ namespace {
 
 // Elements from this value on are of empty bricks; the rest is the distance in bricks.
 constexpr std::uint32_t kEmpty = std::uint32_t{1} << 31;
-constexpr std::uint32_t kFull = 0;  // element of a brick whose cells are all occupied
+constexpr std::uint32_t kFull = 0;                           // element of a brick whose cells are all occupied
 constexpr std::size_t kMostElements = std::size_t{1} << 24;  // 64 MiB; a larger map has no table
-constexpr int kMostBricks = 6;      // along an axis, for a sphere that the table answers
+constexpr int kMostBricks = 6;      // that a sphere which the table answers overlaps along an axis
 constexpr int kFarthest = 5;        // distances in bricks are counted up to this one; it also stands for larger ones
 constexpr std::size_t kAhead = 16;  // spheres whose elements are fetched before the first of them is answered
 
@@ -45,6 +45,37 @@ void spread(const std::array<std::int32_t, 3>& counts, int axis, const std::vect
     }
   }
 }
+
+/// The four layers of cells of a brick along an axis, seen from the center of a sphere.
+struct Layers {
+  double squared[4];   // [finest edges^2] square of the distance of each layer
+  std::uint64_t near;  // cells of the brick in layers that are within the reach of the sphere
+
+  Layers() = default;
+  /// @param at  center of the sphere along the axis [finest edges], from the corner of the brick
+  Layers(int axis, double at, double reach) : near(cellsBetween(axis, at - reach, at + reach)) {
+    for (int i = 0; i < 4; ++i) {
+      const double low = i, gap = greaterOf(greaterOf(low - at, at - (low + 1.0)), 0.0);
+      squared[i] = gap * gap;
+    }
+  }
+};
+
+/// Returns whether any of these cells of a brick is within a distance of the center of a sphere.
+bool isAnyNear(std::uint64_t cells, const Layers& x, const Layers& y, const Layers& z, double near_squared) {
+  for (; cells != 0; cells &= cells - 1) {
+    const unsigned cell = firstCell(cells);
+    if (x.squared[cellAlong(cell, 0)] <=
+        near_squared - (z.squared[cellAlong(cell, 2)] + y.squared[cellAlong(cell, 1)])) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Returns std::floor() of a value between -1 and 2^31 - 2, without a call. It returns one more for a value that is
+/// less than the next integer by only a rounding error.
+std::int32_t floorOf(double value) { return static_cast<std::int32_t>(value + 1.0) - 1; }
 
 }  // namespace
 
@@ -101,8 +132,7 @@ void TouchTable::fill(const Brick& brick) {
     const std::int32_t edge = std::int32_t{1} << 2 * brick.level;
     std::array<std::int32_t, 3> low;
     for (int axis = 0; axis < 3; ++axis) {
-      low[static_cast<std::size_t>(axis)] =
-          brick.corner[static_cast<std::size_t>(axis)] + cellAlong(cell, axis) * edge;
+      low[static_cast<std::size_t>(axis)] = brick.corner[static_cast<std::size_t>(axis)] + cellAlong(cell, axis) * edge;
     }
     for (std::int32_t z = low[2]; z < low[2] + edge; z += 4) {
       for (std::int32_t y = low[1]; y < low[1] + edge; y += 4) std::fill_n(&elementAt({low[0], y, z}), edge / 4, kFull);
@@ -129,9 +159,7 @@ void TouchTable::writeDistances() {
   }
 }
 
-std::size_t TouchTable::bytes() const {
-  return sizeof(*this) + 4 * elements_.capacity() + 8 * cells_.capacity();
-}
+std::size_t TouchTable::bytes() const { return sizeof(*this) + 4 * elements_.capacity() + 8 * cells_.capacity(); }
 
 /// Finds the bricks that a sphere overlaps. @returns false if the map must answer
 bool TouchTable::spanOf(const Sphere& sphere, Span& span) const {
@@ -143,12 +171,12 @@ bool TouchTable::spanOf(const Sphere& sphere, Span& span) const {
   span.reach = near + 1e-9 + 1e-12 * (span.center.cwiseAbs().maxCoeff() + near);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double at = span.center[static_cast<Eigen::Index>(axis)] - corner_[axis];
-    const double first = std::floor(0.25 * (at - span.reach)), last = std::floor(0.25 * (at + span.reach));
-    if (!(last - first < kMostBricks)) return false;  // also if a number is not finite
+    const double first = 0.25 * (at - span.reach), last = 0.25 * (at + span.reach);
+    if (!(last - first < kMostBricks - 1)) return false;  // also if a number is not finite
     const double end = counts_[axis];
     span.first[axis] = static_cast<std::int32_t>(std::min(std::max(first, 0.0), end));
-    span.last[axis] = static_cast<std::int32_t>(std::min(std::max(last, -1.0), end - 1.0));
-    span.middle[axis] = static_cast<std::int32_t>(std::min(std::max(std::floor(0.25 * at), 0.0), end - 1.0));
+    span.last[axis] = floorOf(std::min(std::max(last, -1.0), end - 1.0));
+    span.middle[axis] = static_cast<std::int32_t>(std::min(std::max(0.25 * at, 0.0), end - 1.0));
   }
   span.element = static_cast<std::size_t>((span.middle[2] * counts_[1] + span.middle[1]) * counts_[0] + span.middle[0]);
   return true;
@@ -161,38 +189,32 @@ bool TouchTable::touches(const Span& span) const {
   }
   const std::uint32_t middle = elements_[span.element];
   if (middle >= kEmpty && static_cast<std::uint32_t>(reach) < middle - kEmpty) return false;
-  // For each axis: the squared distance of each layer of cells, and for each brick the cells in layers that are near.
-  double squared[3][4 * kMostBricks];
-  std::uint64_t near_cells[3][kMostBricks];
+  const auto layersAlong = [&](std::size_t axis, std::int32_t brick) {
+    return Layers(static_cast<int>(axis), span.center[static_cast<Eigen::Index>(axis)] - (corner_[axis] + 4.0 * brick),
+                  span.reach);
+  };
+  // Most spheres that touch a voxel touch one in the brick of their center.
+  if (middle < kEmpty) {
+    const Layers x = layersAlong(0, span.middle[0]), y = layersAlong(1, span.middle[1]),
+                 z = layersAlong(2, span.middle[2]);
+    if (isAnyNear(cells_[middle] & x.near & y.near & z.near, x, y, z, span.near_squared)) return true;
+  }
+  Layers layers[3][kMostBricks];
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::int32_t brick = span.first[axis]; brick <= span.last[axis]; ++brick) {
-      const auto number = static_cast<std::size_t>(brick - span.first[axis]);
-      const double at = span.center[static_cast<Eigen::Index>(axis)] - (corner_[axis] + 4.0 * brick);
-      for (std::size_t i = 0; i < 4; ++i) {
-        const double low = static_cast<double>(i);
-        const double gap = greaterOf(greaterOf(low - at, at - (low + 1.0)), 0.0);
-        squared[axis][4 * number + i] = gap * gap;
-      }
-      near_cells[axis][number] = cellsBetween(static_cast<int>(axis), at - span.reach, at + span.reach);
+      layers[axis][brick - span.first[axis]] = layersAlong(axis, brick);
     }
   }
   for (std::int32_t z = span.first[2]; z <= span.last[2]; ++z) {
-    const auto in_z = static_cast<std::size_t>(z - span.first[2]);
+    const Layers& in_z = layers[2][z - span.first[2]];
     for (std::int32_t y = span.first[1]; y <= span.last[1]; ++y) {
-      const auto in_y = static_cast<std::size_t>(y - span.first[1]);
-      const std::uint64_t in_row = near_cells[2][in_z] & near_cells[1][in_y];
+      const Layers& in_y = layers[1][y - span.first[1]];
+      const std::uint64_t in_row = in_z.near & in_y.near;
       const std::uint32_t* const row = &elements_[static_cast<std::size_t>((z * counts_[1] + y) * counts_[0])];
       for (std::int32_t x = span.first[0]; x <= span.last[0]; ++x) {
         if (row[x] >= kEmpty) continue;
-        const auto in_x = static_cast<std::size_t>(x - span.first[0]);
-        std::uint64_t cells = cells_[row[x]] & in_row & near_cells[0][in_x];
-        for (; cells != 0; cells &= cells - 1) {
-          const unsigned cell = firstCell(cells);
-          const auto gapAlong = [&](int axis, std::size_t brick) {
-            return squared[axis][4 * brick + static_cast<std::size_t>(cellAlong(cell, axis))];
-          };
-          if (gapAlong(0, in_x) <= span.near_squared - (gapAlong(2, in_z) + gapAlong(1, in_y))) return true;
-        }
+        const Layers& in_x = layers[0][x - span.first[0]];
+        if (isAnyNear(cells_[row[x]] & in_row & in_x.near, in_x, in_y, in_z, span.near_squared)) return true;
       }
     }
   }

@@ -37,6 +37,7 @@ PLANES = "world/plane_pairs.cpp"
 AROUND_POINT = "queries/around_point.h"
 CLOUD = "maps/cloud_cells.cpp"
 DISTANCES = "maps/distance_blocks.cpp"
+TOUCH = "maps/touch_table.cpp"
 PAST = "history/history.cpp"
 PAST_PARTS = "history/kept_parts.cpp"
 PAST_RECORD = "history/snapshot_record.cpp"
@@ -381,6 +382,10 @@ CORE = [
      "reach + allFour(padding_)", "reach"),
     ("voxels in one layer around a block are not seen", DISTANCES, "box.min()[k] = (first[axis] - kMargin) * edge();",
      "box.min()[k] = (first[axis] - kMargin + 1.5) * edge();"),
+    ("the last bricks that a sphere overlaps are not looked at", TOUCH,
+     "span.last[axis] = floorOf(", "span.last[axis] = -1 + floorOf("),
+    ("a sphere that just reaches the nearest brick with voxels is free", TOUCH,
+     "static_cast<std::uint32_t>(reach) < middle - kEmpty", "static_cast<std::uint32_t>(reach) <= middle - kEmpty"),
     ("a cell that a sensor sees again expires too early", CLOUD,
      "newest = std::max(newest, (known++)->stamp);", "newest = (known++)->stamp;"),
     ("a coordinate just below zero is put into the cell above", CLOUD,

@@ -21,9 +21,9 @@ struct Brick;
 /// the largest of the distances along x, y and z, counted in bricks up to 5 (Rosenfeld and Pfaltz 1968, "Distance
 /// functions on digital pictures"). So most spheres in free space need only one element.
 ///
-/// The map itself answers for spheres that overlap more than 6 bricks along an axis. If the box has more than 2^24
-/// bricks, there is no table (see hasTable()), and the map answers for all spheres. An element takes 4 bytes, so the
-/// elements take at most 64 MiB. The table is immutable, so any number of threads may call it at the same time.
+/// The map itself answers for spheres with a diameter of 5 bricks or more. If the box has more than 2^24 bricks, there
+/// is no table (see hasTable()), and the map answers for all spheres. An element takes 4 bytes, so the elements take at
+/// most 64 MiB. The table is immutable, so any number of threads may call it at the same time.
 class TouchTable {
  public:
   /// Takes time proportional to the number of voxels plus the number of bricks in the box around them.
