@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <hgrid_proximity/BodyState.h>
 #include <hgrid_proximity/Verdict.h>
+#include <ros/this_node.h>
 
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
