@@ -15,6 +15,7 @@ namespace {
 // Elements from this value on are of empty bricks; the rest is the distance in bricks.
 constexpr std::uint32_t kEmpty = std::uint32_t{1} << 31;
 constexpr std::uint32_t kFull = 0;                           // element of a brick whose cells are all occupied
+constexpr std::uint32_t kNoCells = 1;                        // index into cells_ of an empty set
 constexpr std::size_t kMostElements = std::size_t{1} << 24;  // 64 MiB; a larger map has no table
 constexpr int kMostBricks = 6;      // that a sphere which the table answers overlaps along an axis
 constexpr int kFarthest = 5;        // distances in bricks are counted up to this one; it also stands for larger ones
@@ -61,22 +62,6 @@ struct Layers {
   }
 };
 
-/// Returns whether any of these cells of a brick is within a distance of the center of a sphere.
-bool isAnyNear(std::uint64_t cells, const Layers& x, const Layers& y, const Layers& z, double near_squared) {
-  for (; cells != 0; cells &= cells - 1) {
-    const unsigned cell = firstCell(cells);
-    if (x.squared[cellAlong(cell, 0)] <=
-        near_squared - (z.squared[cellAlong(cell, 2)] + y.squared[cellAlong(cell, 1)])) {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// Returns std::floor() of a value between -1 and 2^31 - 2, without a call. It returns one more for a value that is
-/// less than the next integer by only a rounding error.
-std::int32_t floorOf(double value) { return static_cast<std::int32_t>(value + 1.0) - 1; }
-
 }  // namespace
 
 /// The bricks that a sphere overlaps, clipped to the array.
@@ -103,7 +88,7 @@ TouchTable::TouchTable(const StaticGrid& grid) : grid_(grid) {
   }
   if (size > kMostElements) return;
   elements_.assign(size, kEmpty);
-  cells_.push_back(~std::uint64_t{0});
+  cells_ = {~std::uint64_t{0}, 0};  // kFull, kNoCells
   fill(grid.bricks_->start);
   writeDistances();
 }
@@ -175,7 +160,7 @@ bool TouchTable::spanOf(const Sphere& sphere, Span& span) const {
     if (!(last - first < kMostBricks - 1)) return false;  // also if a number is not finite
     const double end = counts_[axis];
     span.first[axis] = static_cast<std::int32_t>(std::min(std::max(first, 0.0), end));
-    span.last[axis] = floorOf(std::min(std::max(last, -1.0), end - 1.0));
+    span.last[axis] = last < 0.0 ? -1 : static_cast<std::int32_t>(std::min(last, end - 1.0));
     span.middle[axis] = static_cast<std::int32_t>(std::min(std::max(0.25 * at, 0.0), end - 1.0));
   }
   span.element = static_cast<std::size_t>((span.middle[2] * counts_[1] + span.middle[1]) * counts_[0] + span.middle[0]);
@@ -185,36 +170,43 @@ bool TouchTable::spanOf(const Sphere& sphere, Span& span) const {
 bool TouchTable::touches(const Span& span) const {
   std::int32_t reach = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (span.first[axis] > span.last[axis]) return false;
     reach = std::max({reach, span.middle[axis] - span.first[axis], span.last[axis] - span.middle[axis]});
   }
   const std::uint32_t middle = elements_[span.element];
   if (middle >= kEmpty && static_cast<std::uint32_t>(reach) < middle - kEmpty) return false;
-  const auto layersAlong = [&](std::size_t axis, std::int32_t brick) {
-    return Layers(static_cast<int>(axis), span.center[static_cast<Eigen::Index>(axis)] - (corner_[axis] + 4.0 * brick),
-                  span.reach);
+  Layers layers[3][kMostBricks];
+  const auto setLayers = [&](std::size_t axis, std::int32_t brick) {
+    layers[axis][brick - span.first[axis]] =
+        Layers(static_cast<int>(axis), span.center[static_cast<Eigen::Index>(axis)] - (corner_[axis] + 4.0 * brick),
+               span.reach);
+  };
+  const auto isAnyNear = [&](std::uint32_t element, std::int32_t x, std::int32_t y, std::int32_t z) {
+    const Layers &in_x = layers[0][x - span.first[0]], &in_y = layers[1][y - span.first[1]],
+                 &in_z = layers[2][z - span.first[2]];
+    std::uint64_t cells = cells_[element < kEmpty ? element : kNoCells] & in_x.near & in_y.near & in_z.near;
+    for (; cells != 0; cells &= cells - 1) {
+      const unsigned cell = firstCell(cells);
+      if (in_x.squared[cellAlong(cell, 0)] <=
+          span.near_squared - (in_z.squared[cellAlong(cell, 2)] + in_y.squared[cellAlong(cell, 1)])) {
+        return true;
+      }
+    }
+    return false;
   };
   // Most spheres that touch a voxel touch one in the brick of their center.
-  if (middle < kEmpty) {
-    const Layers x = layersAlong(0, span.middle[0]), y = layersAlong(1, span.middle[1]),
-                 z = layersAlong(2, span.middle[2]);
-    if (isAnyNear(cells_[middle] & x.near & y.near & z.near, x, y, z, span.near_squared)) return true;
-  }
-  Layers layers[3][kMostBricks];
+  for (std::size_t axis = 0; axis < 3; ++axis) setLayers(axis, span.middle[axis]);
+  if (isAnyNear(middle, span.middle[0], span.middle[1], span.middle[2])) return true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::int32_t brick = span.first[axis]; brick <= span.last[axis]; ++brick) {
-      layers[axis][brick - span.first[axis]] = layersAlong(axis, brick);
+      if (brick != span.middle[axis]) setLayers(axis, brick);
     }
   }
   for (std::int32_t z = span.first[2]; z <= span.last[2]; ++z) {
-    const Layers& in_z = layers[2][z - span.first[2]];
     for (std::int32_t y = span.first[1]; y <= span.last[1]; ++y) {
-      const Layers& in_y = layers[1][y - span.first[1]];
-      const std::uint64_t in_row = in_z.near & in_y.near;
       const std::uint32_t* const row = &elements_[static_cast<std::size_t>((z * counts_[1] + y) * counts_[0])];
       for (std::int32_t x = span.first[0]; x <= span.last[0]; ++x) {
-        if (row[x] >= kEmpty) continue;
-        const Layers& in_x = layers[0][x - span.first[0]];
-        if (isAnyNear(cells_[row[x]] & in_row & in_x.near, in_x, in_y, in_z, span.near_squared)) return true;
+        if (isAnyNear(row[x], x, y, z)) return true;
       }
     }
   }
