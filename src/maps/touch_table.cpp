@@ -47,18 +47,15 @@ void spread(const std::array<std::int32_t, 3>& counts, int axis, const std::vect
   }
 }
 
-/// The four layers of cells of a brick along an axis, seen from the center of a sphere.
-struct Layers {
-  double squared[4];   // [finest edges^2] square of the distance of each layer
-  std::uint64_t near;  // cells of the brick in layers that are within the reach of the sphere
+/// A sphere seen from a brick, along one axis.
+struct Along {
+  double at;           // [finest edges] center of the sphere, from the corner of the brick
+  std::uint64_t near;  // cells of the brick that are within the reach of the sphere along this axis
 
-  Layers() = default;
-  /// @param at  center of the sphere along the axis [finest edges], from the corner of the brick
-  Layers(int axis, double at, double reach) : near(cellsBetween(axis, at - reach, at + reach)) {
-    for (int i = 0; i < 4; ++i) {
-      const double low = i, gap = greaterOf(greaterOf(low - at, at - (low + 1.0)), 0.0);
-      squared[i] = gap * gap;
-    }
+  /// Returns the square of the distance [finest edges^2] of a cell along an axis.
+  double squaredGap(unsigned cell, int axis) const {
+    const double low = cellAlong(cell, axis), gap = greaterOf(greaterOf(low - at, at - (low + 1.0)), 0.0);
+    return gap * gap;
   }
 };
 
@@ -175,38 +172,38 @@ bool TouchTable::touches(const Span& span) const {
   }
   const std::uint32_t middle = elements_[span.element];
   if (middle >= kEmpty && static_cast<std::uint32_t>(reach) < middle - kEmpty) return false;
-  Layers layers[3][kMostBricks];
-  const auto setLayers = [&](std::size_t axis, std::int32_t brick) {
-    layers[axis][brick - span.first[axis]] =
-        Layers(static_cast<int>(axis), span.center[static_cast<Eigen::Index>(axis)] - (corner_[axis] + 4.0 * brick),
-               span.reach);
+  Along along[3][kMostBricks];
+  const auto lookFrom = [&](std::size_t axis, std::int32_t brick) {
+    const double at = span.center[static_cast<Eigen::Index>(axis)] - (corner_[axis] + 4.0 * brick);
+    along[axis][brick - span.first[axis]] = {at,
+                                             cellsBetween(static_cast<int>(axis), at - span.reach, at + span.reach)};
   };
-  const auto isAnyNear = [&](std::uint32_t element, std::int32_t x, std::int32_t y, std::int32_t z) {
-    const Layers &in_x = layers[0][x - span.first[0]], &in_y = layers[1][y - span.first[1]],
-                 &in_z = layers[2][z - span.first[2]];
+  // Returns whether the sphere touches any voxel of the brick at x, y, z.
+  const auto touchesBrick = [&](std::uint32_t element, std::int32_t x, std::int32_t y, std::int32_t z) {
+    const Along &in_x = along[0][x - span.first[0]], &in_y = along[1][y - span.first[1]],
+                &in_z = along[2][z - span.first[2]];
     std::uint64_t cells = cells_[element < kEmpty ? element : kNoCells] & in_x.near & in_y.near & in_z.near;
     for (; cells != 0; cells &= cells - 1) {
       const unsigned cell = firstCell(cells);
-      if (in_x.squared[cellAlong(cell, 0)] <=
-          span.near_squared - (in_z.squared[cellAlong(cell, 2)] + in_y.squared[cellAlong(cell, 1)])) {
+      if (in_x.squaredGap(cell, 0) <= span.near_squared - (in_z.squaredGap(cell, 2) + in_y.squaredGap(cell, 1))) {
         return true;
       }
     }
     return false;
   };
   // Most spheres that touch a voxel touch one in the brick of their center.
-  for (std::size_t axis = 0; axis < 3; ++axis) setLayers(axis, span.middle[axis]);
-  if (isAnyNear(middle, span.middle[0], span.middle[1], span.middle[2])) return true;
+  for (std::size_t axis = 0; axis < 3; ++axis) lookFrom(axis, span.middle[axis]);
+  if (touchesBrick(middle, span.middle[0], span.middle[1], span.middle[2])) return true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::int32_t brick = span.first[axis]; brick <= span.last[axis]; ++brick) {
-      if (brick != span.middle[axis]) setLayers(axis, brick);
+      if (brick != span.middle[axis]) lookFrom(axis, brick);
     }
   }
   for (std::int32_t z = span.first[2]; z <= span.last[2]; ++z) {
     for (std::int32_t y = span.first[1]; y <= span.last[1]; ++y) {
       const std::uint32_t* const row = &elements_[static_cast<std::size_t>((z * counts_[1] + y) * counts_[0])];
       for (std::int32_t x = span.first[0]; x <= span.last[0]; ++x) {
-        if (isAnyNear(row[x], x, y, z)) return true;
+        if (touchesBrick(row[x], x, y, z)) return true;
       }
     }
   }
