@@ -558,7 +558,14 @@ class DoctorChecks(unittest.TestCase):
 
     def test_a_source_that_nothing_else_explains(self):
         self.break_source("obstacle", "UNPLACED obstacle/crate: it never had a pose (frame 'cart')")
-        self.assertIn("tf_echo base", self.expect("source_incomplete").fix)
+        self.assertIn("tf_echo base cart`", self.expect("source_incomplete").fix)
+        reason = "UNPLACED robot 'arm': 2 of its 9 links never had a pose: frame 'tool' was never published"
+        self.break_source("obstacle", reason)
+        self.assertIn("tf_echo base tool`", self.expect("source_incomplete").fix)
+
+    def test_an_obstacle_that_no_message_on_poses_has_placed(self):
+        self.break_source("obstacle", "UNPLACED obstacle/cart: it never had a pose (frame '~poses/cart')")
+        self.assertIn("Send its pose to /proximity/poses.", self.expect("source_incomplete").fix)
 
     def test_an_obstacle_that_messages_on_poses_no_longer_move(self):
         self.break_source("obstacle", "LOST obstacle/cart: its pose is 3 s old (frame '~poses/cart')")

@@ -3,6 +3,7 @@
 """Reports problems that the node itself states in ~status and that no earlier finding explains."""
 from __future__ import annotations
 
+import re
 from typing import Dict
 
 from hgrid_doctor.facts import STALE, STATES, Facts
@@ -11,9 +12,10 @@ from hgrid_doctor.finding import ERROR, EVERYTHING, WARN, Findings, counted
 LATE_SHARE = 0.1  # fraction of the ticks that may be late
 
 POSES_FRAME = "~poses/"  # beginning of the frames of obstacles that messages on ~poses move
+FRAME = re.compile(r"frame '([^']+)'")  # in a reason: the frame that has no pose, or whose pose is old
 
 HINTS = {  # fix by the first word of the reason
-    "UNPLACED": "See whether tf connects its frame with the world: `rosrun tf tf_echo {world} <frame>`.",
+    "UNPLACED": "See whether tf connects its frame with the world: `rosrun tf tf_echo {world} {frame}`.",
     "UNCOVERED": "Correct the shape, or waive it with ~accept_uncovered and a reason.",
     "LOST": "See why its publisher stopped: `rostopic hz {topic}`, `rosnode list`.",
     "FROZEN": "Let the clock run on, or wait for the first data after the jump of the clock.",
@@ -22,6 +24,7 @@ HINTS = {  # fix by the first word of the reason
     "REFUSED": "Correct the newest description, map or message. The node reads a description again by itself; send a map or a message again.",
     "PARSE": "Correct the description, then `rosservice call {node}/reload_robot {source}`.",
 }
+UNSENT_HINT = "Send its pose to {topic}. See what arrives there: `rostopic echo {topic}`."  # UNPLACED, moved by ~poses
 OTHER_HINT = "Correct the cause; the status of the node says more: `rostopic echo -n 1 {node}/status`."
 
 
@@ -43,9 +46,13 @@ def check_sources(facts: Facts, findings: Findings):
             if findings.explain(source.name, ERROR):
                 continue
             reason = source.reason or "; ".join(facts.status.not_ready) or "it says no reason"
-            hint = HINTS.get(reason.split(" ", 1)[0], OTHER_HINT)
-            topic = f"{facts.node}/poses" if f"'{POSES_FRAME}" in reason else "/tf"
-            fix = hint.format(world=facts.world_frame(), node=facts.node, source=source.name, topic=topic)
+            code = reason.split(" ", 1)[0]
+            named = FRAME.search(reason)
+            frame = named.group(1) if named else "<frame>"
+            is_sent = frame.startswith(POSES_FRAME)
+            hint = UNSENT_HINT if is_sent and code == "UNPLACED" else HINTS.get(code, OTHER_HINT)
+            topic = f"{facts.node}/poses" if is_sent else "/tf"
+            fix = hint.format(world=facts.world_frame(), node=facts.node, source=source.name, topic=topic, frame=frame)
             findings.add("source_incomplete", ERROR, f"{source.name} is not complete: {reason}.", fix, [source.name])
         elif source.state == STALE and not findings.explain(source.name):
             findings.add(
