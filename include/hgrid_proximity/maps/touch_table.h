@@ -50,7 +50,7 @@ class TouchTable {
   std::array<std::int32_t, 3> corner_{};  // [finest edges] minimum corner of the array, from the origin of the map
   std::array<std::int32_t, 3> counts_{};  // number of bricks along each axis
   std::vector<std::uint32_t> elements_;   // for each brick; below 2^31: index into cells_; otherwise 2^31 + distance
-  std::vector<std::uint64_t> cells_;      // sets of occupied cells, see maps/brick.h; the first one has all cells
+  std::vector<std::uint64_t> cells_;      // sets of occupied cells, see maps/brick.h; first a full and an empty set
 };
 
 }  // namespace hgrid
