@@ -9,11 +9,7 @@
 namespace hgrid {
 
 void checkQueryPoint(const Eigen::Vector3d& point, const std::string& what) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!std::isfinite(point[axis])) {
-      throw Refusal(Code::nonfinite, what + ": " + "xyz"[axis] + " is " + text(point[axis]) + "; it must be finite");
-    }
-  }
+  if (!point.allFinite()) throw Refusal(Code::nonfinite, what + " is not finite; every coordinate must be finite");
   checkWithin(point, kQueryReach, what);
 }
 

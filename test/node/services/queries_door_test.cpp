@@ -67,8 +67,8 @@ TEST_F(QueryDoor, AnInvalidRadiusIsRefused) {
 }
 
 TEST_F(QueryDoor, AnInvalidPointIsRefused) {
-  expectRefused(node_->sphere(kNan, 0, 0, 1), "NONFINITE", "the query's center: x is nan; it must be finite");
-  expectRefused(node_->sphere(0, 0, -kInfinity, 1), "NONFINITE", "the query's center: z is -inf; it must be finite");
+  expectRefused(node_->sphere(kNan, 0, 0, 1), "NONFINITE", "the query's center is not finite");
+  expectRefused(node_->sphere(0, 0, -kInfinity, 1), "NONFINITE", "the query's center is not finite");
   expectRefused(node_->segment(xyz(kNan, 0, 0), xyz(1, 0, 0), 0), "NONFINITE", "the segment's start");
   expectRefused(node_->segment(xyz(0, 0, 0), xyz(0, kInfinity, 0), 0), "NONFINITE", "the segment's end");
   expectRefused(node_->segment(xyz(0, 0, 0), xyz(1e300, 0, 0), 0), "OUT_OF_RANGE", "the segment's end");
