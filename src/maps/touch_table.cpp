@@ -17,7 +17,7 @@ constexpr std::uint32_t kEmpty = std::uint32_t{1} << 31;
 constexpr std::uint32_t kFull = 0;                           // element of a brick whose cells are all occupied
 constexpr std::uint32_t kNoCells = 1;                        // index into cells_ of an empty set
 constexpr std::size_t kMostElements = std::size_t{1} << 24;  // 64 MiB; a larger map has no table
-constexpr int kMostBricks = 6;      // that a sphere which the table answers overlaps along an axis
+constexpr int kMostBricks = 6;      // along an axis; the map answers for spheres that may overlap more
 constexpr int kFarthest = 5;        // distances in bricks are counted up to this one; it also stands for larger ones
 constexpr std::size_t kAhead = 16;  // spheres whose elements are fetched before the first of them is answered
 
@@ -47,7 +47,7 @@ void spread(const std::array<std::int32_t, 3>& counts, int axis, const std::vect
   }
 }
 
-/// A sphere seen from a brick, along one axis.
+/// Where a sphere is along one axis, relative to a brick.
 struct Along {
   double at;           // [finest edges] center of the sphere, from the corner of the brick
   std::uint64_t near;  // cells of the brick that are within the reach of the sphere along this axis
@@ -154,7 +154,7 @@ bool TouchTable::spanOf(const Sphere& sphere, Span& span) const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double at = span.center[static_cast<Eigen::Index>(axis)] - corner_[axis];
     const double first = 0.25 * (at - span.reach), last = 0.25 * (at + span.reach);
-    if (!(last - first < kMostBricks - 1)) return false;  // also if a number is not finite
+    if (!(last - first < kMostBricks - 1)) return false;  // also if a number is NaN or infinite
     const double end = counts_[axis];
     span.first[axis] = static_cast<std::int32_t>(std::min(std::max(first, 0.0), end));
     span.last[axis] = last < 0.0 ? -1 : static_cast<std::int32_t>(std::min(last, end - 1.0));
@@ -173,6 +173,7 @@ bool TouchTable::touches(const Span& span) const {
   const std::uint32_t middle = elements_[span.element];
   if (middle >= kEmpty && static_cast<std::uint32_t>(reach) < middle - kEmpty) return false;
   Along along[3][kMostBricks];
+  // Computes what touchesBrick() needs of the bricks with this coordinate along an axis.
   const auto lookFrom = [&](std::size_t axis, std::int32_t brick) {
     const double at = span.center[static_cast<Eigen::Index>(axis)] - (corner_[axis] + 4.0 * brick);
     along[axis][brick - span.first[axis]] = {at,
@@ -191,7 +192,8 @@ bool TouchTable::touches(const Span& span) const {
     }
     return false;
   };
-  // Most spheres that touch a voxel touch one in the brick of their center.
+  // Most spheres that touch a voxel touch one in the brick of their center. So this brick is tested before the others
+  // are looked at. The loop below tests it again, because leaving it out would need a branch.
   for (std::size_t axis = 0; axis < 3; ++axis) lookFrom(axis, span.middle[axis]);
   if (touchesBrick(middle, span.middle[0], span.middle[1], span.middle[2])) return true;
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -49,8 +49,8 @@ void addRegions(std::vector<SearchTask>& tasks, const Layer& layer, const Layer*
   }
 }
 
-/// Adds tasks that test the boxes of all regions of a layer against one level of another layer. If levels that
-/// follow each other overlap `asked`, a task may contain boxes of several of them.
+/// Adds tasks that test the boxes of all regions of a layer against one level of another layer. A task may
+/// contain boxes of several levels, if these levels follow each other and all overlap `asked`.
 void addRegionsAcross(std::vector<SearchTask>& tasks, const Layer& layer, const kernels::Level& asked) {
   const std::vector<kernels::Level>& levels = layer.levels();
   const kernels::Level* first = nullptr;

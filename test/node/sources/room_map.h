@@ -35,7 +35,8 @@ inline std::string rowOf(int count) {
 
 using Names = std::vector<std::string>;
 
-/// A robot with a sphere of radius 0.1 m at (0.05, 0.05, 0.3) [m], which is 0.1 m above the first cell of the map.
+/// Tests with a robot, and with the map file row.bt, which has one cell. The robot has a sphere of radius 0.1 m at
+/// (0.05, 0.05, 0.3) [m], 0.1 m above this cell.
 class Maps : public ::testing::Test {
  protected:
   Maps() { folder_.write("row.bt", rowOf(1)); }
