@@ -14,6 +14,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <functional>
 #include <thread>
 
 #include "test/node/support/claims.h"
@@ -135,9 +136,10 @@ class QuickQueries : public ::testing::Test {
     setup.beside["robot_description"] = urdf(link("world"));
     node_ = std::make_unique<NodeUnderTest>(setup);
     node_->waitForComplete();
-    end_ = std::chrono::steady_clock::now() + std::chrono::seconds(2);
   }
   std::string service() const { return node_->named("query_sphere"); }
+  /// Lets the clients run for 2 s.
+  void start() { end_ = std::chrono::steady_clock::now() + std::chrono::seconds(2); }
   bool running() const { return std::chrono::steady_clock::now() < end_; }
   void check(std::size_t i, const msg::QuerySphere::Response& response) {
     ++answers_;
@@ -170,9 +172,8 @@ class QuickQueries : public ::testing::Test {
       check(i, question.response);
     }
   }
-  /// Calls the service 20 times for the obstacles at x = -10 m. Returns how many of all calls so far were answered in
-  /// the receiving thread.
-  std::uint64_t quickAfterAsking(double radius, std::size_t hits) {
+  /// Calls the service 20 times for the obstacles at x = -10 m.
+  void askForHeap(double radius, std::size_t hits) {
     ros::ServiceClient client = ros::NodeHandle().serviceClient<msg::QuerySphere>(service(), true);
     msg::QuerySphere question;
     question.request.center.x = -10.0;
@@ -182,17 +183,23 @@ class QuickQueries : public ::testing::Test {
       EXPECT_EQ(question.response.answer.hits.size(), hits);
       ++answers_;
     }
+  }
+  /// Returns how many of all calls so far were answered in the receiving thread.
+  std::uint64_t quickAnswers() {
     const auto all_asked = [&](const msg::Status& status) { return counter(status, "query.asked") == answers_; };
     return counter(*node_->waitForStatus("all calls", all_asked), "query.quick");
+  }
+  /// Does this until a call was answered in the receiving thread. If other programs keep the processors busy, each
+  /// search may take longer than such an answer may.
+  void untilOneIsQuick(const std::function<void()>& ask) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (quickAnswers() == 0 && std::chrono::steady_clock::now() < end) ask();
+    EXPECT_GT(quickAnswers(), 0u);
   }
   void expectAllWell() {
     EXPECT_EQ(wrong_, 0u);
     EXPECT_EQ(lost_, 0u);
-    node_->waitForStatus("that some requests, but not all, were answered in the receiving thread",
-                         [&](const msg::Status& status) {
-                           const std::uint64_t quick = counter(status, "query.quick");
-                           return counter(status, "query.asked") == answers_ && quick > 0 && quick < answers_;
-                         });
+    EXPECT_LT(quickAnswers(), answers_);
   }
 
   std::unique_ptr<NodeUnderTest> node_;
@@ -201,18 +208,23 @@ class QuickQueries : public ::testing::Test {
 };
 
 TEST_F(QuickQueries, AreAnsweredToAClientThatAsksWithoutAPause) {
-  sendBursts(1);
+  untilOneIsQuick([this] {
+    start();
+    sendBursts(1);
+  });
   expectAllWell();
 }
 
 TEST_F(QuickQueries, HaveAtMost64Hits) {
-  EXPECT_EQ(quickAfterAsking(1.5, 65), 0u);
-  EXPECT_GT(quickAfterAsking(0.5, 64), 0u);
+  askForHeap(1.5, 65);
+  EXPECT_EQ(quickAnswers(), 0u);
+  untilOneIsQuick([this] { askForHeap(0.5, 64); });
 }
 
 TEST_F(QuickQueries, AreAnsweredToManyClientsWhileTheNodeReceivesTransforms) {
   TransformSource transforms;
   std::vector<std::thread> clients;
+  start();
   for (int i = 0; i < 2; ++i) {
     clients.emplace_back([this] { call(); });
     clients.emplace_back([this] { sendBursts(20); });
