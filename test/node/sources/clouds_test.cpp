@@ -257,7 +257,7 @@ TEST_F(Clouds, ThatCannotBePlacedAreRefusedAndReportedAsMissing) {
 }
 
 TEST_F(Clouds, WithWrongLengthsLeaveTheCloudAsItWas) {
-  start(30.0, {}, dict({{"map", dict({{"max_bytes", 100000}})}}));
+  start(300.0, {}, dict({{"map", dict({{"max_bytes", 100000}})}}));
   sendUntilComplete({{0.05f, 0.05f, -0.95f}});
   const std::string whole = serialized(cloudOf("camera", transforms_.now(), {{1, 1, 1}, {2, 2, 2}}));
   const std::size_t before = residentKilobytes(node_->process().pid());
