@@ -235,20 +235,42 @@ void EdgeSearch::findReaches(std::size_t lane) {
 }
 
 /// Finds how near to each other the shapes of each pair must be to matter. Their relative travel is at most the sum of
-/// both travels, so pairs that are farther apart than this sum are skipped.
+/// both travels, so pairs and blocks that are farther apart than this sum are skipped.
 /// @param lanes  the lanes in which all shapes are searched
 void EdgeSearch::findPairReaches(unsigned lanes) {
-  const std::vector<SelfPair>& pairs = all_.robot.selfPairs();
-  for (std::size_t i = 0; lanes != 0 && i < pairs.size(); ++i) {
-    const SelfPair& pair = pairs[i];
-    const Four most = (memory_.shape_reach[pair.first] + memory_.shape_reach[pair.second]) * (1.0f + 1e-6f);
-    const unsigned near = overlapping(memory_.placed[pair.first], memory_.placed[pair.second], most);
+  if (lanes == 0) return;
+  const auto sum = [](const Four& a, const Four& b) { return (a + b) * (1.0f + 1e-6f); };
+  const auto set = [lanes](Four& reach, unsigned near, const auto& reachIn) {
     for (std::size_t lane = 0; lane < 4; ++lane) {
-      if ((lanes >> lane & 1u) == 0) continue;
-      memory_.pair_reach[i][lane] =
-          (near >> lane & 1u) != 0 ? withSlack(all_.motion.reachOfPair(i, memory_.edges[lane].motion)) : kTooFar;
+      if ((lanes >> lane & 1u) != 0) reach[lane] = (near >> lane & 1u) != 0 ? reachIn(lane) : kTooFar;
+    }
+  };
+  const std::vector<SelfPair>& pairs = all_.robot.selfPairs();
+  for (std::size_t k = 0; k < all_.robot.selfBlocks().size(); ++k) {
+    const SelfBlock& block = all_.robot.selfBlocks()[k];
+    if (block.isOfClusters()) {
+      const Four most = sum(reachOfCluster(block.first_cluster), reachOfCluster(block.second_cluster));
+      const unsigned near =
+          overlapping(memory_.clusters[block.first_cluster], memory_.clusters[block.second_cluster], most) & lanes;
+      set(memory_.block_reach[k], near, [&](std::size_t lane) { return most[lane]; });
+      if (near == 0) continue;
+    }
+    for (std::size_t i = block.first; i < block.last; ++i) {
+      const SelfPair& pair = pairs[i];
+      const Four most = sum(memory_.shape_reach[pair.first], memory_.shape_reach[pair.second]);
+      const unsigned near = overlapping(memory_.placed[pair.first].bounds, memory_.placed[pair.second].bounds, most);
+      set(memory_.pair_reach[i], near,
+          [&](std::size_t lane) { return withSlack(all_.motion.reachOfPair(i, memory_.edges[lane].motion)); });
     }
   }
+}
+
+/// Returns the greatest reach of the shapes of a cluster. @param cluster  index into RobotShapes::clusters()
+Four EdgeSearch::reachOfCluster(std::size_t cluster) const {
+  const ShapeCluster& shapes = all_.robot.clusters()[cluster];
+  Four reach = memory_.shape_reach[shapes.first];
+  for (std::uint32_t i = shapes.first + 1; i < shapes.last; ++i) reach = greatest(reach, memory_.shape_reach[i]);
+  return reach;
 }
 
 /// Returns whether a part of this length is not divided any more.

@@ -32,6 +32,7 @@ class EdgeSearch {
   void place(std::size_t lane);
   void findReaches(std::size_t lane);
   void findPairReaches(unsigned lanes);
+  Four reachOfCluster(std::size_t cluster) const;
   void use(std::size_t lane);
   void useContact(EdgeInWork& work, const StatePair& contact) const;
   EdgePart keep(EdgeInWork& work, std::size_t lane, bool in_doubt) const;

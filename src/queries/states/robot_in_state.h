@@ -31,11 +31,12 @@ class RobotInState {
       box.center[i] = four.center[i][lane_];
       box.half[i] = four.half[i][lane_];
     }
+    box.is_ball = four.is_ball;
     return box;
   }
   /// Returns the axis-aligned box around a shape, relative to the origin of the snapshot.
   Aabb boundsOf(std::size_t shape) const {
-    const FourShapes& four = placed_[shape];
+    const FourBounds& four = placed_[shape].bounds;
     return {{four.min[0][lane_], four.min[1][lane_], four.min[2][lane_]},
             {four.max[0][lane_], four.max[1][lane_], four.max[2][lane_]}};
   }

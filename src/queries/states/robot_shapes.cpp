@@ -73,6 +73,7 @@ TiltedBox<float> tiltedBoxOf(const BodyShape& shape, const Pose& frame_from_shap
   const Eigen::Vector3d center = frame_from_shape * local.center(), half = 0.5 * local.sizes();
   const double rounding = relative_rounding * center.norm();
   TiltedBox<float> box;
+  box.is_ball = shape.shape.kind() == ShapeKind::sphere;
   for (Eigen::Index i = 0; i < 3; ++i) {
     for (Eigen::Index k = 0; k < 3; ++k) box.axes[i][k] = static_cast<float>(frame_from_shape.linear()(k, i));
     box.center[i] = static_cast<float>(center[i]);
@@ -258,9 +259,9 @@ void RobotShapes::findCarriers(const Kinematics& kinematics) {
 void RobotShapes::addClusters() {
   Eigen::AlignedBox3f bounds;  // of the last cluster, in the frame of its group
   float volumes = 0.0f;        // [m^3] sum of the volumes of the boxes of its shapes
-  for (std::uint32_t i = 0; i < counting_; ++i) {
+  for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
     const Eigen::AlignedBox3f shape = boundsOf(shapes_[i].in_group);
-    const bool joins = i > 0 && shapes_[i].group == shapes_[i - 1].group &&
+    const bool joins = i > 0 && i != counting_ && shapes_[i].group == shapes_[i - 1].group &&
                        i - clusters_.back().first < ShapeCluster::kMost &&
                        bounds.merged(shape).volume() <= kMaxVolumeRatio * (volumes + shape.volume());
     if (!joins) {
@@ -269,18 +270,44 @@ void RobotShapes::addClusters() {
       volumes = 0.0f;
     }
     clusters_.back().last = i + 1;
+    if (i < counting_) counting_clusters_ = clusters_.size();
     bounds.extend(shape);
     volumes += shape.volume();
   }
 }
 
 void RobotShapes::addSelfPairs(const PairFilter& filter) {
-  for (std::uint32_t i = 0; i < counting_; ++i) {
-    for (std::uint32_t k = i + 1; k < shapes_.size(); ++k) {
-      if (filter.allowed(shapes_[i].body, shapes_[k].body)) continue;
-      self_pairs_.push_back({i, k, meshOf(i, k)});
+  std::vector<SelfPair> few;
+  for (std::uint32_t a = 0; a < counting_clusters_; ++a) {
+    for (std::uint32_t b = a; b < clusters_.size(); ++b) {
+      const std::vector<SelfPair> pairs = pairsOf(filter, clusters_[a], clusters_[b]);
+      if (pairs.size() < SelfBlock::kFew) {
+        few.insert(few.end(), pairs.begin(), pairs.end());
+      } else {
+        addSelfBlock(a, b, pairs);
+      }
     }
   }
+  if (!few.empty()) addSelfBlock(Structure::kNone, Structure::kNone, few);
+}
+
+/// Returns the self pairs of the shapes of two clusters, which may be the same.
+std::vector<SelfPair> RobotShapes::pairsOf(const PairFilter& filter, const ShapeCluster& a,
+                                           const ShapeCluster& b) const {
+  std::vector<SelfPair> pairs;
+  for (std::uint32_t i = a.first; i < a.last; ++i) {
+    for (std::uint32_t k = std::max(i + 1, b.first); k < b.last; ++k) {
+      if (!filter.allowed(shapes_[i].body, shapes_[k].body)) pairs.push_back({i, k, meshOf(i, k)});
+    }
+  }
+  return pairs;
+}
+
+void RobotShapes::addSelfBlock(std::uint32_t first_cluster, std::uint32_t second_cluster,
+                               const std::vector<SelfPair>& pairs) {
+  const auto first = static_cast<std::uint32_t>(self_pairs_.size());
+  self_pairs_.insert(self_pairs_.end(), pairs.begin(), pairs.end());
+  self_blocks_.push_back({first_cluster, second_cluster, first, static_cast<std::uint32_t>(self_pairs_.size())});
 }
 
 /// Returns SelfPair::mesh of two shapes.
@@ -304,10 +331,15 @@ void RobotShapes::place(const std::vector<FourPoses>& groups, const GroupChange*
       const TiltedBox<float>& local = shapes_[i].in_group;
       const bool is_straight = shapes_[i].is_straight;
       FourShapes& result = placed[i];
+      result.box.is_ball = local.is_ball;
       float size = 0.0f;
       for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-          result.box.axes[axis][k] = is_straight ? pose.turn[3 * k + axis] : pose.turned(local.axes[axis], k);
+          if (local.is_ball) {  // any axes do; these make the axis-aligned box small
+            result.box.axes[axis][k] = allFour(axis == k ? 1.0f : 0.0f);
+          } else {
+            result.box.axes[axis][k] = is_straight ? pose.turn[3 * k + axis] : pose.turned(local.axes[axis], k);
+          }
         }
         result.box.center[k] = pose.turned(local.center, k) + pose.shift[k];
         result.box.half[k] = allFour(local.half[k]) + pose.rounding;
@@ -316,10 +348,18 @@ void RobotShapes::place(const std::vector<FourPoses>& groups, const GroupChange*
       result.rounding = pose.rounding + allFour(size * (8.0f * kUnit));
       for (std::size_t k = 0; k < 3; ++k) {
         const Four reach = pose.rounding + reachAlong(result.box, k);
-        result.min[k] = result.box.center[k] - reach;
-        result.max[k] = result.box.center[k] + reach;
+        result.bounds.min[k] = result.box.center[k] - reach;
+        result.bounds.max[k] = result.box.center[k] + reach;
       }
     }
+  }
+}
+
+void RobotShapes::boundClusters(const std::vector<FourShapes>& placed, std::vector<FourBounds>& bounds) const {
+  for (std::size_t i = 0; i < clusters_.size(); ++i) {
+    FourBounds all = placed[clusters_[i].first].bounds;
+    for (std::size_t k = clusters_[i].first + 1; k < clusters_[i].last; ++k) all = around(all, placed[k].bounds);
+    bounds[i] = all;
   }
 }
 

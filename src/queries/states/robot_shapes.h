@@ -38,6 +38,7 @@ struct RobotShape {
 };
 
 /// Shapes of one rigid group that are close together, so that one search of the world finds what is near any of them.
+/// Either all of them are shapes of bodies that count, or none.
 struct ShapeCluster {
   static constexpr std::uint32_t kMost = 16;  ///< largest number of shapes in a cluster
 
@@ -50,6 +51,18 @@ struct SelfPair {
   /// The one whose RobotShape::clearance is asked: the closed mesh, or the larger of two. Structure::kNone if there is
   /// none, or if a shape cannot be measured.
   std::uint32_t mesh;
+};
+
+/// Self pairs that are tested one after another: those of the shapes of two clusters, or those of all pairs of clusters
+/// that have only few.
+struct SelfBlock {
+  static constexpr std::size_t kFew = 6;  ///< pairs of clusters with fewer self pairs are not tested as such
+
+  std::uint32_t first_cluster, second_cluster;  ///< indices into RobotShapes::clusters(), or Structure::kNone
+  std::uint32_t first, last;                    ///< indices into RobotShapes::selfPairs(): first .. last - 1
+
+  /// Whether the pairs are those of two clusters.
+  bool isOfClusters() const { return first_cluster != Structure::kNone; }
 };
 
 /// The shapes that move with the joints of one robot, or of several joined robots, and their pairs that the pair filter
@@ -68,9 +81,13 @@ class RobotShapes {
   const std::vector<RobotShape>& shapes() const { return shapes_; }
   /// Returns how many shapes are of bodies that count.
   std::size_t counting() const { return counting_; }
-  /// Returns the clusters of the shapes of bodies that count, in the order of the shapes. Each shape is in one of them.
+  /// Returns the clusters of the shapes, in the order of the shapes. Each shape is in one of them.
   const std::vector<ShapeCluster>& clusters() const { return clusters_; }
+  /// Returns how many clusters are of bodies that count. They come first.
+  std::size_t countingClusters() const { return counting_clusters_; }
   const std::vector<SelfPair>& selfPairs() const { return self_pairs_; }
+  /// Returns the blocks of selfPairs(), in their order. Each pair is in one of them.
+  const std::vector<SelfBlock>& selfBlocks() const { return self_blocks_; }
   /// Returns whether a rigid group, or a group that moves with it, has a shape.
   bool carriesShapes(std::size_t group) const { return carries_shapes_[group]; }
   /// Returns whether the joints of the robot move this body.
@@ -82,6 +99,9 @@ class RobotShapes {
   /// @param placed    has one element for each of shapes()
   void place(const std::vector<FourPoses>& groups, const GroupChange* changes, const Eigen::Vector3d& origin,
              std::vector<FourShapes>& placed) const;
+  /// Computes the axis-aligned boxes around the shapes of each cluster.
+  /// @param bounds  has one element for each of clusters()
+  void boundClusters(const std::vector<FourShapes>& placed, std::vector<FourBounds>& bounds) const;
 
  private:
   void addLinks(const Snapshot& snapshot, const Kinematics& kinematics, const std::string& robot);
@@ -93,13 +113,17 @@ class RobotShapes {
   void findCarriers(const Kinematics& kinematics);
   void addClusters();
   void addSelfPairs(const PairFilter& filter);
+  std::vector<SelfPair> pairsOf(const PairFilter& filter, const ShapeCluster& a, const ShapeCluster& b) const;
+  void addSelfBlock(std::uint32_t first_cluster, std::uint32_t second_cluster, const std::vector<SelfPair>& pairs);
   std::uint32_t meshOf(std::uint32_t first, std::uint32_t second) const;
 
   std::vector<RobotBody> bodies_;
   std::vector<RobotShape> shapes_;  // sorted by rigid group, so that place() reads each of them once
   std::size_t counting_ = 0;
   std::vector<ShapeCluster> clusters_;
+  std::size_t counting_clusters_ = 0;
   std::vector<SelfPair> self_pairs_;
+  std::vector<SelfBlock> self_blocks_;
   std::vector<bool> is_own_;          // by index of the body
   std::vector<bool> carries_shapes_;  // by index of the rigid group
 };

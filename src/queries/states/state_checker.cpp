@@ -88,6 +88,7 @@ void StateChecker::checkStates(const StateBatch& batch, const StateRequest& requ
   memory.prepare(all.kinematics, all.robot);
   std::fill(memory.shape_reach.begin(), memory.shape_reach.end(), allFour(roundedUp(request.clearance)));
   std::fill(memory.pair_reach.begin(), memory.pair_reach.end(), allFour(roundedUp(request.clearance)));
+  std::fill(memory.block_reach.begin(), memory.block_reach.end(), allFour(roundedUp(request.clearance)));
   answers.states.assign(values.size(), StateAnswer{});
   answers.pairs.clear();
   answers.gradients.assign(request.gradients ? values.size() * memory.columns.size() : 0, Proximity::kUnknown);

@@ -36,10 +36,12 @@ bool isNearer(const NearShapes& a, const NearShapes& b) {
 void StateMemory::prepare(const Kinematics& kinematics, const RobotShapes& robot) {
   const std::size_t shapes = robot.shapes().size(), variables = kinematics.variables().size();
   placed.resize(shapes);
+  clusters.resize(robot.clusters().size());
   spheres.resize(4 * shapes);
   spheres_known.resize(shapes);
   shape_reach.resize(shapes);
   pair_reach.resize(robot.selfPairs().size());
+  block_reach.resize(robot.selfBlocks().size());
   self_near.resize(robot.selfPairs().size());
   from.resize(variables);
   difference.resize(variables);
@@ -71,6 +73,7 @@ void StateSearch::place(unsigned open, bool first) {
     if (changeOf(changes, robot_.shapes()[i].group) != GroupChange::none) scratch_.spheres_known[i] = 0;
   }
   robot_.place(scratch_.groups.in_world, changes, snapshot_.origin(), scratch_.placed);
+  robot_.boundClusters(scratch_.placed, scratch_.clusters);
 }
 
 void StateSearch::findAll(unsigned lanes) {
@@ -122,19 +125,26 @@ void StateSearch::sortContacts(std::size_t lane) {
 }
 
 /// Finds the self pairs whose axis-aligned boxes are within reach in an open state, and writes them to
-/// StateMemory::self_near. The loop has no branches, because they would often be mispredicted.
+/// StateMemory::self_near. The inner loop has no branches, because they would often be mispredicted.
 /// @returns how many there are
 std::size_t StateSearch::findSelfBoxes() {
   const std::vector<SelfPair>& pairs = robot_.selfPairs();
-  const std::size_t size = pairs.size();
   const unsigned open = open_;
   StateMemory::SelfNear* const near = scratch_.self_near.data();
   std::size_t count = 0;
-  for (std::size_t i = 0; i < size; ++i) {
-    const FourShapes &a = scratch_.placed[pairs[i].first], &b = scratch_.placed[pairs[i].second];
-    const unsigned lanes = overlapping(a, b, scratch_.pair_reach[i]) & open;
-    near[count] = {static_cast<std::uint32_t>(i), lanes};
-    count += lanes != 0 ? 1 : 0;
+  for (std::size_t k = 0; k < robot_.selfBlocks().size(); ++k) {
+    const SelfBlock block = robot_.selfBlocks()[k];
+    if (block.isOfClusters() && (overlapping(scratch_.clusters[block.first_cluster],
+                                             scratch_.clusters[block.second_cluster], scratch_.block_reach[k]) &
+                                 open) == 0) {
+      continue;
+    }
+    for (std::uint32_t i = block.first; i < block.last; ++i) {
+      const FourBounds &a = scratch_.placed[pairs[i].first].bounds, &b = scratch_.placed[pairs[i].second].bounds;
+      const unsigned lanes = overlapping(a, b, scratch_.pair_reach[i]) & open;
+      near[count] = {i, lanes};
+      count += lanes != 0 ? 1 : 0;
+    }
   }
   return count;
 }
@@ -175,32 +185,33 @@ bool StateSearch::isFarFromMesh(std::size_t lane, const NearShapes& near) const 
 
 void StateSearch::findInFewShapes() {
   if (robot_.counting() == 0) return;
-  FourShapes all;  // only its bounds are used
+  FourBounds all;
   for (std::size_t i = 0; i < robot_.counting(); ++i) {
-    const FourShapes& placed = scratch_.placed[i];
+    FourBounds searched = scratch_.placed[i].bounds;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Four min = placed.min[k] - scratch_.shape_reach[i], max = placed.max[k] + scratch_.shape_reach[i];
-      all.min[k] = i == 0 ? min : least(all.min[k], min);
-      all.max[k] = i == 0 ? max : greatest(all.max[k], max);
+      searched.min[k] -= scratch_.shape_reach[i];
+      searched.max[k] += scratch_.shape_reach[i];
     }
+    all = i == 0 ? searched : around(all, searched);
   }
   for (std::uint32_t other = 0; other < world_.shapes().size(); ++other) {
     if ((overlapping(all, world_.boundsOf(other), allFour(0.0f)) & open_) == 0) continue;
     const WorldShape& shape = world_.shapes()[other];
     for (std::uint32_t own = 0; own < robot_.counting(); ++own) {
       const Four& reach = scratch_.shape_reach[own];
-      forEachLane(overlapping(scratch_.placed[own], world_.boundsOf(other), reach) & open_, [&](std::size_t lane) {
-        const Separation<float> apart = separationOf(robotIn(lane).boxOf(own), shape.box, reach[lane]);
-        if (!mayReach(apart, reach[lane]) || robotIn(lane).allowed(own, shape.body)) return;
-        consider(lane, {apart.along_faces, reach[lane], With::shape, own, other, 0});
-      });
+      forEachLane(overlapping(scratch_.placed[own].bounds, world_.boundsOf(other), reach) & open_,
+                  [&](std::size_t lane) {
+                    const Separation<float> apart = separationOf(robotIn(lane).boxOf(own), shape.box, reach[lane]);
+                    if (!mayReach(apart, reach[lane]) || robotIn(lane).allowed(own, shape.body)) return;
+                    consider(lane, {apart.along_faces, reach[lane], With::shape, own, other, 0});
+                  });
     }
   }
 }
 
 void StateSearch::findInGrid() {
   forEachLane(open_, [&](std::size_t lane) {
-    for (std::size_t cluster = robot_.clusters().size(); cluster-- > 0 && isOpen(lane);) {
+    for (std::size_t cluster = robot_.countingClusters(); cluster-- > 0 && isOpen(lane);) {
       findNearCluster(lane, robot_.clusters()[cluster]);
     }
   });

@@ -68,6 +68,7 @@ struct StateMemory {
   std::vector<FourDoubles> values;   // for each variable: its values in four states
   GroupPoses groups;                 // of the robot; those of groups without shapes are of the first states only
   std::vector<FourShapes> placed;    // for each shape of the robot
+  std::vector<FourBounds> clusters;  // for each cluster of the robot: the boxes around its shapes
   std::vector<FourSpheres> spheres;  // for each shape of the robot, in each of the four states
   std::vector<std::uint8_t>
       spheres_known;              // for each shape of the robot: bit i: whether `spheres` has those of state i
@@ -75,6 +76,8 @@ struct StateMemory {
   std::vector<std::uint8_t>
       map_far;  // for each map and each shape of the robot: bits of the states in which it is far from the map
   std::vector<Four> pair_reach;  // [m] for each pair of RobotShapes::selfPairs(): how near its shapes matter
+  std::vector<Four>
+      block_reach;  // [m] for each of RobotShapes::selfBlocks() that is of clusters: the greatest of these
   struct SelfNear {
     std::uint32_t pair;  // index into RobotShapes::selfPairs()
     unsigned lanes;      // bit i: whether the boxes of its shapes are near each other in state i

@@ -11,22 +11,26 @@
 namespace hgrid {
 
 // The functions below exist for one number and for a vector of four numbers.
+inline float least(float a, float b) { return a < b ? a : b; }
 inline float greatest(float a, float b) { return a > b ? a : b; }
+inline float squareRoot(float value) { return std::sqrt(value); }
 inline float absolute(float value) { return std::abs(value); }
 inline Four absolute(Four value) { return greatest(value, -value); }
 
-/// A box at any orientation, in floats. `Number` is float, or Four for four boxes.
+/// A box around a shape, at any orientation, in floats. `Number` is float, or Four for four boxes.
 template <class Number>
 struct TiltedBox {
-  Number axes[3][3];  // axes[i][k]: component k of axis i, a unit vector
-  Number center[3];   // [m]
-  Number half[3];     // [m] half of the lengths along the axes, grown by the rounding errors of all numbers
+  Number axes[3][3];     // axes[i][k]: component k of axis i, a unit vector
+  Number center[3];      // [m]
+  Number half[3];        // [m] half of the lengths along the axes, grown by the rounding errors of all numbers
+  bool is_ball = false;  // whether the shape is inside the ball around `center` with the radius half[0]
 };
 
-/// How far two boxes are surely apart.
+/// How far two boxes, or the balls in them, are surely apart.
 template <class Number>
 struct Separation {
-  Number along_faces;  // [m] lower bound of the distance, from the faces; negative: minus a bound of their overlap
+  Number along_faces;  // [m] lower bound of the distance; for boxes, from the faces only; negative: minus a bound of
+                       // their overlap
   Number along_edges;  // positive: an axis perpendicular to two edges separates the boxes; not a length
 };
 
@@ -43,13 +47,37 @@ Number reachAlong(const TiltedBox<Number>& box, std::size_t k) {
          absolute(box.axes[2][k]) * box.half[2];
 }
 
+/// Returns a lower bound of the distance [m] of two balls. Negative: minus a bound of their overlap.
+template <class Number>
+Number gapOfBalls(const TiltedBox<Number>& a, const TiltedBox<Number>& b) {
+  const Number x = b.center[0] - a.center[0], y = b.center[1] - a.center[1], z = b.center[2] - a.center[2];
+  return squareRoot(x * x + y * y + z * z) * (1.0f - 2e-6f) - (a.half[0] + b.half[0]) * (1.0f + 2e-6f);
+}
+
+/// Returns a lower bound of the distance [m] of a ball and a box. Negative: minus a bound of their overlap.
+template <class Number>
+Number gapOfBallAndBox(const TiltedBox<Number>& ball, const TiltedBox<Number>& box) {
+  Number way[3], beyond[3], outside[3];  // `beyond` and `outside`: how far the center is beyond the faces of the box
+  for (int k = 0; k < 3; ++k) way[k] = ball.center[k] - box.center[k];
+  for (int i = 0; i < 3; ++i) {
+    beyond[i] = absolute(dotOf(box.axes[i], way)) - box.half[i];
+    outside[i] = greatest(beyond[i], Number{});
+  }
+  const Number inside = least(greatest(greatest(beyond[0], beyond[1]), beyond[2]), Number{});
+  const Number size =
+      absolute(way[0]) + absolute(way[1]) + absolute(way[2]) + box.half[0] + box.half[1] + box.half[2] + ball.half[0];
+  return squareRoot(dotOf(outside, outside)) + inside - ball.half[0] - size * 2e-6f;
+}
+
 /// Separates two boxes by the 15 axes of the separating axis test (Ericson 2005, section 4.4.1). Rounding only makes
-/// the results smaller.
+/// the results smaller. For a ball, its distance is computed instead.
 /// @param up_to  [m] If along_faces is larger than this, along_edges is not computed and is negative. Only for single
 ///   boxes; Four ignores it.
 template <class Number>
 Separation<Number> separationOf(const TiltedBox<Number>& a, const TiltedBox<Number>& b,
                                 [[maybe_unused]] const Number& up_to) {
+  if (a.is_ball) return {b.is_ball ? gapOfBalls(a, b) : gapOfBallAndBox(a, b), Number{}};
+  if (b.is_ball) return {gapOfBallAndBox(b, a), Number{}};
   Number turn[3][3], share[3][3], way[3], along[3];  // in the frame of `a`: rotation of `b`, its center
   for (int k = 0; k < 3; ++k) way[k] = b.center[k] - a.center[k];
   for (int i = 0; i < 3; ++i) {

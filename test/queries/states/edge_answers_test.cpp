@@ -62,6 +62,36 @@ TEST(EdgeAnswers, AnEdgeWithoutMotionIsTheStateItself) {
   EXPECT_EQ(world.checkEdge(kQuarter, kQuarter).verdict, Verdict::hit);
 }
 
+// Claim: of many shapes in a row, those that are far from the axis are searched as far as they move. The base and the
+// outer arm are not adjacent links, because the arm is between them.
+TEST(EdgeAnswers, TheFarEndOfALongLinkIsNotMissed) {
+  const double angle = 2.09;  // of the balls on the base; the first configurations that are tested do not touch them
+  RobotModel model = turningArm();
+  RobotLink outer = model.links[1];
+  outer.name = "outer arm";
+  outer.parent = 1;
+  outer.joint = "outer joint";
+  outer.lower = 0.0;
+  outer.upper = 3.0;
+  outer.shapes.clear();
+  for (int i = 0; i <= 10; ++i) outer.shapes.push_back(solidShape(Shape::sphere(0.02), at(0.1 + 0.04 * i)));
+  model.links.push_back(outer);
+  model.links[1].shapes = {solidShape(Shape::sphere(0.005))};
+  model.links[0].shapes.clear();
+  for (const double radius : {0.48, 0.5, 0.52}) {
+    model.links[0].shapes.push_back(
+        solidShape(Shape::sphere(0.01), at(radius * std::cos(angle), radius * std::sin(angle))));
+  }
+  findRigidGroups(model);
+  ArmWorld world({}, model);
+  world.batch.joints = {"outer joint"};
+  world.batch.others = {0.0, 0.0};
+  const EdgeAnswer& answer = world.checkEdge(0, 2.9);
+  ASSERT_EQ(answer.verdict, Verdict::hit);
+  EXPECT_NEAR(answer.at * 2.9, angle - 2.0 * std::asin(0.015 / 0.5), 2e-3);
+  EXPECT_EQ(world.checkEdge(0, 1.9).verdict, Verdict::clear);
+}
+
 TEST(EdgeAnswers, AnEndThatTouchesIsAHit) {
   ArmWorld world;
   put(world.scene, ArmWorld::ballBody("ball"), at(0, 0.5));

@@ -218,5 +218,36 @@ TEST(JoinedRobots, DoNotHideTheDoubtAboutWhatTheOtherOneHolds) {
   EXPECT_EQ(verdict(), Verdict::unknown);
 }
 
+// Claim: what touches the base of a robot that does not count is not reported, although this base is beside one that
+// counts. There are so many obstacles that the grid is searched for them.
+TEST(JoinedRobots, OfWhichOneDoesNotCountMayTouchObstaclesWithIt) {
+  RobotModel model = turningArm();
+  model.links[1].has_collision = false;
+  model.links[1].shapes.clear();
+  const auto matrix = std::make_shared<const LinkMatrix>(matrixOf(model));
+  const std::vector<JoinedRobot> robots{{"left", &model, at(0)}, {"right", &model, at(0.25)}};
+  Scene scene{SceneOptions{}};
+  for (const JoinedRobot& robot : robots) {
+    for (const Body& body : bodiesOf(model, robot.name, matrix)) put(scene, body, robot.world_from_root);
+  }
+  put(scene, ArmWorld::ballBody("touches right"), at(0.42));
+  for (int i = 0; i < 40; ++i) put(scene, ArmWorld::ballBody(std::to_string(i)), at(3.0 + i));
+  const auto verdict = [&](const StateCheckerOptions& options) {
+    const StateChecker checker(scene.commit(Time{2}, {}), Kinematics(joinRobots(robots)), "", narrowPhase(), options);
+    StateBatch batch;
+    append(batch, {0.0, 0.0});
+    StateScratch scratch;
+    StateAnswers answers;
+    checker.checkStates(batch, {}, scratch, answers);
+    return answers.states.at(0).verdict;
+  };
+  StateCheckerOptions options;
+  EXPECT_EQ(verdict(options), Verdict::hit);
+  options.robots = {"right"};
+  EXPECT_EQ(verdict(options), Verdict::hit);
+  options.robots = {"left"};
+  EXPECT_EQ(verdict(options), Verdict::clear);
+}
+
 }  // namespace
 }  // namespace hgrid
