@@ -184,6 +184,17 @@ TEST(JoinedRobots, WhoseRootLinksHaveNoPoseAreRefused) {
   EXPECT_EQ(refused(twisted), Code::bad_rotation);
 }
 
+/// Returns the verdict for two joined robots with one joint each, whose positions are 0.
+Verdict verdictAtZero(Scene& scene, const std::vector<JoinedRobot>& robots, const StateCheckerOptions& options = {}) {
+  const StateChecker checker(scene.commit(Time{2}, {}), Kinematics(joinRobots(robots)), "", narrowPhase(), options);
+  StateBatch batch;
+  append(batch, {0.0, 0.0});
+  StateScratch scratch;
+  StateAnswers answers;
+  checker.checkStates(batch, {}, scratch, answers);
+  return answers.states.at(0).verdict;
+}
+
 // Claim: an obstacle on the root link of a robot is in doubt if it is LOST, whatever the state of the other robot is.
 TEST(JoinedRobots, DoNotHideTheDoubtAboutWhatTheOtherOneHolds) {
   const RobotModel model = turningArm();
@@ -202,15 +213,7 @@ TEST(JoinedRobots, DoNotHideTheDoubtAboutWhatTheOtherOneHolds) {
   body.frame = "right.base";
   body.frame_from_body = at(0, -0.5);
   const BodyId held = put(scene, body, at(5, -0.5));
-  const auto verdict = [&] {
-    const StateChecker checker(scene.commit(Time{2}, {}), Kinematics(joinRobots(robots)), "", narrowPhase());
-    StateBatch batch;
-    append(batch, {0.0, 0.0});
-    StateScratch scratch;
-    StateAnswers answers;
-    checker.checkStates(batch, {}, scratch, answers);
-    return answers.states.at(0).verdict;
-  };
+  const auto verdict = [&] { return verdictAtZero(scene, robots); };
   EXPECT_EQ(verdict(), Verdict::clear);
   scene.setState(held, Freshness::lost, 5.0);
   EXPECT_EQ(verdict(), Verdict::unknown);
@@ -232,21 +235,12 @@ TEST(JoinedRobots, OfWhichOneDoesNotCountMayTouchObstaclesWithIt) {
   }
   put(scene, ArmWorld::ballBody("touches right"), at(0.42));
   for (int i = 0; i < 40; ++i) put(scene, ArmWorld::ballBody(std::to_string(i)), at(3.0 + i));
-  const auto verdict = [&](const StateCheckerOptions& options) {
-    const StateChecker checker(scene.commit(Time{2}, {}), Kinematics(joinRobots(robots)), "", narrowPhase(), options);
-    StateBatch batch;
-    append(batch, {0.0, 0.0});
-    StateScratch scratch;
-    StateAnswers answers;
-    checker.checkStates(batch, {}, scratch, answers);
-    return answers.states.at(0).verdict;
-  };
   StateCheckerOptions options;
-  EXPECT_EQ(verdict(options), Verdict::hit);
+  EXPECT_EQ(verdictAtZero(scene, robots, options), Verdict::hit);
   options.robots = {"right"};
-  EXPECT_EQ(verdict(options), Verdict::hit);
+  EXPECT_EQ(verdictAtZero(scene, robots, options), Verdict::hit);
   options.robots = {"left"};
-  EXPECT_EQ(verdict(options), Verdict::clear);
+  EXPECT_EQ(verdictAtZero(scene, robots, options), Verdict::clear);
 }
 
 }  // namespace
