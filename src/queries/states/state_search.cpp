@@ -125,11 +125,13 @@ void StateSearch::sortContacts(std::size_t lane) {
 }
 
 /// Finds the self pairs whose axis-aligned boxes are within reach in an open state, and writes them to
-/// StateMemory::self_near. The inner loop has no branches, because they would often be mispredicted.
+/// StateMemory::self_near. The innermost loop has no branches, because they would often be mispredicted.
 /// @returns how many there are
 std::size_t StateSearch::findSelfBoxes() {
   const std::vector<SelfPair>& pairs = robot_.selfPairs();
   const unsigned open = open_;
+  const FourShapes* const placed = scratch_.placed.data();
+  const Four* const reach = scratch_.pair_reach.data();
   StateMemory::SelfNear* const near = scratch_.self_near.data();
   std::size_t count = 0;
   for (std::size_t k = 0; k < robot_.selfBlocks().size(); ++k) {
@@ -139,11 +141,14 @@ std::size_t StateSearch::findSelfBoxes() {
                                  open) == 0) {
       continue;
     }
-    for (std::uint32_t i = block.first; i < block.last; ++i) {
-      const FourBounds &a = scratch_.placed[pairs[i].first].bounds, &b = scratch_.placed[pairs[i].second].bounds;
-      const unsigned lanes = overlapping(a, b, scratch_.pair_reach[i]) & open;
-      near[count] = {i, lanes};
-      count += lanes != 0 ? 1 : 0;
+    for (std::uint32_t i = block.first; i < block.last;) {
+      const std::uint32_t first = pairs[i].first;
+      const FourBounds own = placed[first].bounds;
+      for (; i < block.last && pairs[i].first == first; ++i) {
+        const unsigned lanes = overlapping(own, placed[pairs[i].second].bounds, reach[i]) & open;
+        near[count] = {i, lanes};
+        count += lanes != 0 ? 1 : 0;
+      }
     }
   }
   return count;
