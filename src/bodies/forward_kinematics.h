@@ -39,7 +39,6 @@ struct Kinematics::State {
   std::vector<std::uint32_t> group_of_link;
   std::vector<Pose> group_from_link;
   std::vector<JointMotion> groups;  // one for each rigid group, parents first
-  bool has_mimics = false;
 };
 
 /// The poses of a rigid group in four states.

@@ -163,7 +163,6 @@ Kinematics::Kinematics(const RobotModel& model) {
       const RobotLink& parent = model.links[static_cast<std::size_t>(link.parent)];
       const Master master = masterOf(link, by_joint);
       joint.mimics = master.link != &link;
-      if (joint.mimics) state->has_mimics = true;
       if (joint.mimics && !(hasOneVariable(link) && hasOneVariable(*master.link))) {
         throw Refusal(Code::unsupported, jointText(link) + " mimics " + jointText(*master.link) +
                                              "; both must be revolute, continuous or prismatic");

@@ -378,6 +378,8 @@ CORE = [
      "changes[i] = GroupChange::parent;", ""),
     ("a group that carries a shape below it does not move", "queries/states/robot_shapes.cpp",
      "if (carries_shapes_[i]) carries_shapes_[joints[i].parent] = true;", ""),
+    ("a joint that mimics one outside the batch is not checked", "queries/states/state_values.cpp",
+     "other_refused_ = joints[i].variable;", ""),
     ("the last shape of a cluster is not in its box", "queries/states/robot_shapes.cpp",
      "k < clusters_[i].last; ++k) all = around", "k + 1 < clusters_[i].last; ++k) all = around"),
     ("a cluster contains shapes of bodies that do not count", "queries/states/robot_shapes.cpp",

@@ -64,6 +64,8 @@ struct StateMemory {
     std::uint32_t variable, column;  // index of a variable, and of its column in the batch
   };
   std::vector<Column> columns;
+  std::vector<std::uint32_t>
+      mimics;                        // indices into StateMotion::groups of the joints that mimic one of these variables
   std::vector<GroupChange> changes;  // for each rigid group: what changes from one state of the batch to the next
   std::vector<FourDoubles> values;   // for each variable: its values in four states
   GroupPoses groups;                 // of the robot; those of groups without shapes are of the first states only

@@ -103,12 +103,38 @@ StateValues::StateValues(const Kinematics& kinematics, const RobotShapes& robot,
                                          "'; name all joints, or give values for the other joints");
     }
   }
+  findMimics();
   findChanges(robot);
 }
 
 std::size_t StateValues::sizeOf(const Kinematics& kinematics, const StateBatch& batch) {
   const std::size_t width = std::max<std::size_t>(1, widthOf(kinematics, batch));
   return (batch.positions.size() + width - 1) / width;
+}
+
+/// Finds the joints that mimic variables of the batch. Checks the other joints that mimic, which are the same in all
+/// states.
+void StateValues::findMimics() {
+  scratch_.mimics.clear();
+  const std::vector<JointMotion>& joints = kinematics_.state().groups;
+  for (std::uint32_t i = 0; i < joints.size(); ++i) {
+    if (!joints[i].mimics) continue;
+    const bool in_batch = std::any_of(scratch_.columns.begin(), scratch_.columns.end(),
+                                      [&](const auto& column) { return column.variable == joints[i].variable; });
+    if (in_batch) {
+      scratch_.mimics.push_back(i);
+    } else if (!checkMimic(joints[i], 0, others_beyond_)) {
+      other_refused_ = joints[i].variable;
+    }
+  }
+}
+
+/// Checks the position of a joint that mimics another one. Sets `beyond` if it is beyond its limits. @returns whether
+/// it is small enough to be used
+bool StateValues::checkMimic(const JointMotion& joint, std::size_t lane, bool& beyond) const {
+  const double position = joint.multiplier * scratch_.values[joint.variable][lane] + joint.offset;
+  if (position < joint.lower || position > joint.upper) beyond = true;
+  return std::abs(position) <= (joint.kind == JointKind::revolute ? kLargestAngle : kLargestLength);
 }
 
 /// Finds the rigid groups that move when the variables in the batch change. Groups without shapes are left out.
@@ -175,14 +201,11 @@ void StateValues::check(std::size_t lane, StateAnswer& answer) const {
     for (std::size_t k = first; k < first + 4; ++k) squared += scratch_.values[k][lane] * scratch_.values[k][lane];
     if (!(std::abs(squared - 1.0) <= kQuaternionTolerance)) return refuse(Code::bad_rotation, i);
   }
-  if (!kinematics_.state().has_mimics) return;
-  for (const JointMotion& joint : kinematics_.state().groups) {
-    if (!joint.mimics) continue;
-    const double position = joint.multiplier * scratch_.values[joint.variable][lane] + joint.offset;
-    const double largest = joint.kind == JointKind::revolute ? kLargestAngle : kLargestLength;
-    if (!(std::abs(position) <= largest)) return refuse(Code::out_of_range, joint.variable);
-    if (position < joint.lower || position > joint.upper) answer.beyond_limits = true;
+  for (const std::uint32_t mimic : scratch_.mimics) {
+    const JointMotion& joint = kinematics_.state().groups[mimic];
+    if (!checkMimic(joint, lane, answer.beyond_limits)) return refuse(Code::out_of_range, joint.variable);
   }
+  if (other_refused_) refuse(Code::out_of_range, *other_refused_);
 }
 
 std::string refusalOf(const Kinematics& kinematics, const StateBatch& batch, std::size_t state,

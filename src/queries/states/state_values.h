@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <optional>
+
 #include "hgrid_proximity/queries/state_checker.h"
 #include "queries/states/state_search.h"
 
@@ -29,13 +31,16 @@ class StateValues {
  private:
   bool isComplete(std::size_t state) const { return (state + 1) * width_ <= batch_.positions.size(); }
   void check(std::size_t lane, StateAnswer& answer) const;
+  bool checkMimic(const JointMotion& joint, std::size_t lane, bool& beyond) const;
+  void findMimics();
   void findChanges(const RobotShapes& robot);
 
   const Kinematics& kinematics_;
   const StateBatch& batch_;
   StateMemory& scratch_;
-  const std::size_t width_;     // number of values of one state
-  bool others_beyond_ = false;  // whether a value that is the same in all states is beyond its limits
+  const std::size_t width_;                   // number of values of one state
+  bool others_beyond_ = false;                // whether a value that is the same in all states is beyond its limits
+  std::optional<std::size_t> other_refused_;  // a variable outside the batch that another joint cannot mimic
 };
 
 /// Returns a sentence that says why a state was refused.

@@ -90,6 +90,33 @@ TEST(StateRefusals, AMimicJointThatGoesTooFarIsRefusedThroughItsMaster) {
   EXPECT_EQ(answers.states[1].refused, Code::out_of_range);
 }
 
+TEST(StateRefusals, AMimicJointIsCheckedAlsoIfItsMasterIsTheSameInAllStates) {
+  RobotModel model = turningArm();
+  addLink(model, "follower", 0, JointKind::revolute);
+  model.links.back().shapes = {solidShape(Shape::sphere(0.01), at(3))};
+  model.links.back().mimic = "arm_joint";
+  model.links.back().mimic_multiplier = 1e9;
+  model.links.back().lower = -1e7;
+  model.links.back().upper = 1e7;
+  addLink(model, "other", 0, JointKind::revolute);
+  model.links.back().shapes = {solidShape(Shape::sphere(0.01), at(4))};
+  findRigidGroups(model);
+  ArmWorld world({}, model);
+  world.batch.joints = {"other_joint"};
+  const auto check = [&](double master) -> const StateAnswers& {
+    world.batch.others = {master, 0.0};
+    return world.check({0.1, 0.2});
+  };
+  for (const StateAnswer& answer : check(0.5).states) EXPECT_EQ(answer.refused, Code::out_of_range);
+  EXPECT_TRUE(says(world.sentences[1], "state 1: joint 'arm_joint' has the value 0.5"));
+  for (const double master : {0.005, 0.05}) {
+    for (const StateAnswer& answer : check(master).states) {
+      EXPECT_EQ(answer.verdict, Verdict::clear);
+      EXPECT_EQ(answer.beyond_limits, master > 0.01);
+    }
+  }
+}
+
 TEST(StateRefusals, NamesOfJointsMustBeKnownUniqueAndComplete) {
   RobotModel model = turningArm();
   addLink(model, "finger", 1, JointKind::prismatic);
