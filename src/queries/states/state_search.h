@@ -64,22 +64,20 @@ struct StateMemory {
     std::uint32_t variable, column;  // index of a variable, and of its column in the batch
   };
   std::vector<Column> columns;
-  std::vector<std::uint32_t>
-      mimics;                        // indices into StateMotion::groups of the joints that mimic one of these variables
-  std::vector<GroupChange> changes;  // for each rigid group: what changes from one state of the batch to the next
-  std::vector<FourDoubles> values;   // for each variable: its values in four states
-  GroupPoses groups;                 // of the robot; those of groups without shapes are of the first states only
-  std::vector<FourShapes> placed;    // for each shape of the robot
-  std::vector<FourBounds> clusters;  // for each cluster of the robot: the boxes around its shapes
-  std::vector<FourSpheres> spheres;  // for each shape of the robot, in each of the four states
+  std::vector<std::uint32_t> mimics;  // groups of the robot whose joints mimic a variable of the batch
+  std::vector<GroupChange> changes;   // for each rigid group: what changes from one state of the batch to the next
+  std::vector<FourDoubles> values;    // for each variable: its values in four states
+  GroupPoses groups;                  // of the robot; those of groups without shapes are of the first states only
+  std::vector<FourShapes> placed;     // for each shape of the robot
+  std::vector<FourBounds> clusters;   // for each cluster of the robot: the boxes around its shapes
+  std::vector<FourSpheres> spheres;   // for each shape of the robot, in each of the four states
   std::vector<std::uint8_t>
       spheres_known;              // for each shape of the robot: bit i: whether `spheres` has those of state i
   std::vector<Four> shape_reach;  // [m] for each shape of the robot: how near something outside the robot matters
   std::vector<std::uint8_t>
       map_far;  // for each map and each shape of the robot: bits of the states in which it is far from the map
-  std::vector<Four> pair_reach;  // [m] for each pair of RobotShapes::selfPairs(): how near its shapes matter
-  std::vector<Four>
-      block_reach;  // [m] for each of RobotShapes::selfBlocks() that is of clusters: the greatest of these
+  std::vector<Four> pair_reach;   // [m] for each pair of RobotShapes::selfPairs(): how near its shapes matter
+  std::vector<Four> block_reach;  // [m] for each of RobotShapes::selfBlocks(): at least the greatest of its pair_reach
   struct SelfNear {
     std::uint32_t pair;  // index into RobotShapes::selfPairs()
     unsigned lanes;      // bit i: whether the boxes of its shapes are near each other in state i
