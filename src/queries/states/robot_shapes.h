@@ -38,7 +38,7 @@ struct RobotShape {
 };
 
 /// Shapes of one rigid group that are close together, so that one search of the world finds what is near any of them.
-/// Either all of them are shapes of bodies that count, or none.
+/// RobotBody::counts is the same for the bodies of all of them.
 struct ShapeCluster {
   static constexpr std::uint32_t kMost = 16;  ///< largest number of shapes in a cluster
 
@@ -53,8 +53,9 @@ struct SelfPair {
   std::uint32_t mesh;
 };
 
-/// Self pairs that are tested one after another: those of the shapes of two clusters, or those of all pairs of clusters
-/// that have only few.
+/// Successive self pairs. Usually, the first shape of each pair is in one cluster and the second one in another. If the
+/// boxes around both clusters are far apart, no pair has to be tested. One block has the pairs for which this test
+/// would take longer than it saves, because their clusters have only few pairs with each other.
 struct SelfBlock {
   static constexpr std::size_t kFew = 6;  ///< pairs of clusters with fewer self pairs are not tested as such
 
@@ -83,7 +84,7 @@ class RobotShapes {
   std::size_t counting() const { return counting_; }
   /// Returns the clusters of the shapes, in the order of the shapes. Each shape is in one of them.
   const std::vector<ShapeCluster>& clusters() const { return clusters_; }
-  /// Returns how many clusters are of bodies that count. They come first.
+  /// Returns how many clusters have shapes of bodies that count. These clusters come before the others.
   std::size_t countingClusters() const { return counting_clusters_; }
   const std::vector<SelfPair>& selfPairs() const { return self_pairs_; }
   /// Returns the blocks of selfPairs(), in their order. Each pair is in one of them.

@@ -112,8 +112,8 @@ std::size_t StateValues::sizeOf(const Kinematics& kinematics, const StateBatch& 
   return (batch.positions.size() + width - 1) / width;
 }
 
-/// Finds the joints that mimic variables of the batch. Checks the other joints that mimic, which are the same in all
-/// states.
+/// Finds the joints that mimic a variable of the batch. They are checked in each state. Joints that mimic another
+/// variable have the same position in all states; they are checked here.
 void StateValues::findMimics() {
   scratch_.mimics.clear();
   const std::vector<JointMotion>& joints = kinematics_.state().groups;

@@ -268,6 +268,7 @@ TEST_F(Clouds, ThatCannotBePlacedAreRefusedAndReportedAsMissing) {
   });
 }
 
+/// The lifetime is so long that cells of a message that should be refused would still be there at the end.
 TEST_F(Clouds, WithWrongLengthsLeaveTheCloudAsItWas) {
   start(300.0, {}, dict({{"map", dict({{"max_bytes", 100000}})}}));
   sendUntilComplete({{0.05f, 0.05f, -0.95f}});

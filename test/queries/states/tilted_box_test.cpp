@@ -67,7 +67,7 @@ TEST(TiltedBox, BoundsTheDistanceOfABallFromBelowAndClosely) {
     ++(truth > 0.0 ? apart : overlapping);
     inside += !first && distance(a, b.pose.translation()) < 0.0 ? 1 : 0;
 
-    TiltedBox<Four> four;  // the same in lane 2; the other boxes are at the origin
+    TiltedBox<Four> four;  // lane 2 has the box of `a`; the boxes of the other lanes are at the origin
     for (std::size_t k = 0; k < 3; ++k) {
       for (std::size_t axis = 0; axis < 3; ++axis) four.axes[axis][k] = Four{0, 0, a.box.axes[axis][k], 0};
       four.center[k] = Four{0, 0, a.box.center[k], 0};
