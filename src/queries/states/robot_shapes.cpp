@@ -236,9 +236,8 @@ void RobotShapes::addShapesOf(const Snapshot& snapshot, const QueryScope& scope,
       const TiltedBox<float> box = tiltedBoxOf(shapes[i], group_from_shape, 1e-6);
       makeHulls(shapes[i]);
       const bool is_straight = group_from_shape.linear() == Eigen::Matrix3d::Identity();
-      shapes_.push_back({own.body, i, own.group, group_from_shape, &shapes[i], box, is_straight,
-                         coverOf(shapes[i], box), FourSpheres(spheresInside(shapes[i], group_from_shape)),
-                         MeshClearance(shapes[i])});
+      shapes_.push_back({own.body, i, own.group, group_from_shape, &shapes[i], box, is_straight, coverOf(box),
+                         FourSpheres(spheresInside(shapes[i], group_from_shape)), MeshClearance(shapes[i])});
     }
   }
   std::stable_sort(shapes_.begin() + before, shapes_.end(),

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hgrid_proximity/geometry/aabb.h"
+
 namespace hgrid {
 namespace {
 
@@ -13,12 +15,12 @@ constexpr double kMostSpheres = 12.0;  // spheres in all, roughly
 
 }  // namespace
 
-SphereCover coverOf(const BodyShape& shape, const TiltedBox<float>& box) {
+SphereCover coverOf(const TiltedBox<float>& box) {
   std::uint32_t order[] = {0, 1, 2};
   std::sort(order, order + 3, [&](std::uint32_t a, std::uint32_t b) { return box.half[a] > box.half[b]; });
   const double longest = box.half[order[0]], middle = box.half[order[1]], shortest = box.half[order[2]];
   SphereCover cover{{order[0], order[1]}, {1, 1}, {0.0f, 0.0f}, box.half[order[0]], box.half[order[0]]};
-  if (shape.shape.kind() == ShapeKind::sphere) return cover;
+  if (box.is_ball) return cover;
   cover.whole = roundedUp(std::hypot(longest, middle, shortest));
   const double spacing = std::max({shortest, longest / kMostAlong, std::sqrt(longest * middle / kMostSpheres), 1e-6});
   double half[2] = {longest, middle};

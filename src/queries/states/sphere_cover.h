@@ -4,7 +4,6 @@
 
 #include <cstdint>
 
-#include "hgrid_proximity/bodies/body.h"
 #include "queries/states/tilted_box.h"
 
 namespace hgrid {
@@ -20,6 +19,6 @@ struct SphereCover {
 };
 
 /// Returns spheres that contain a padded shape. @param box  the box around it
-SphereCover coverOf(const BodyShape& shape, const TiltedBox<float>& box);
+SphereCover coverOf(const TiltedBox<float>& box);
 
 }  // namespace hgrid

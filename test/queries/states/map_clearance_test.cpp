@@ -29,7 +29,7 @@ TEST(SphereCover, SpheresContainTheBox) {
     const Eigen::Vector3d size(random.uniform(0.001, 1.0), random.uniform(0.001, 0.3), random.uniform(0.001, 0.1));
     const BodyShape shape = shapeOf(Shape::box(random.chance(0.3) ? Eigen::Vector3d::Constant(size[0]) : size));
     const TiltedBox<float> box = tiltedBoxOf(shape, randomPose(random, 1.0), 1e-6);
-    const SphereCover cover = coverOf(shape, box);
+    const SphereCover cover = coverOf(box);
     counts.insert(cover.count[0] * cover.count[1]);
     EXPECT_LE(cover.count[0] * cover.count[1], 24u);
     EXPECT_LE(cover.radius, cover.whole * (1.0f + 1e-5f));
@@ -56,7 +56,7 @@ TEST(SphereCover, SpheresContainTheBox) {
 
 TEST(SphereCover, CoversASphereWithOneSphere) {
   const BodyShape shape = solidShape(Shape::sphere(0.2), Pose::Identity(), 0.05);
-  const SphereCover cover = coverOf(shape, tiltedBoxOf(shape, Pose::Identity(), 1e-6));
+  const SphereCover cover = coverOf(tiltedBoxOf(shape, Pose::Identity(), 1e-6));
   EXPECT_EQ(cover.count[0] * cover.count[1], 1u);
   EXPECT_NEAR(cover.whole, 0.25, 1e-5);
   EXPECT_GE(cover.whole, 0.25);
@@ -75,7 +75,7 @@ TEST(MapClearance, ReportsOnlyShapesBeyondTheReach) {
     const MapClearance clearance(map, origin);
     for (int turn = 0; turn < 40; ++turn) {
       const BodyShape shape = solidShape(randomShape(random, 0.3), Pose::Identity(), random.uniform(0.0, 0.02));
-      const SphereCover cover = coverOf(shape, tiltedBoxOf(shape, Pose::Identity(), 1e-6));
+      const SphereCover cover = coverOf(tiltedBoxOf(shape, Pose::Identity(), 1e-6));
       Pose poses[4];
       TiltedBox<float> boxes[4];
       Four reach;

@@ -34,7 +34,7 @@ TEST(MeshClearance, ReportsOnlyShapesBeyondTheReach) {
     const TiltedBox<float> tray_box = boxOf(tray, world_from_tray);
     for (int turn = 0; turn < 40; ++turn) {
       const BodyShape shape = solidShape(randomShape(random, 0.15), Pose::Identity(), random.uniform(0.0, 0.02));
-      const SphereCover cover = coverOf(shape, tiltedBoxOf(shape, Pose::Identity(), 1e-6));
+      const SphereCover cover = coverOf(tiltedBoxOf(shape, Pose::Identity(), 1e-6));
       Pose poses[4];
       TiltedBox<float> boxes[4];
       Four reach;
@@ -95,7 +95,7 @@ TEST(MeshClearance, SaysNothingWithoutALattice) {
   const TiltedBox<float> here = tiltedBoxOf(box, Pose::Identity(), 1e-6),
                          far = tiltedBoxOf(box, Pose(Eigen::Translation3d(9, 0, 0)), 1e-6);
   const FourShapes first = placed({here, here, here, here}), second = placed({far, far, far, far});
-  const SphereCover cover = coverOf(box, here);
+  const SphereCover cover = coverOf(here);
   EXPECT_EQ(MeshClearance(box).farther(first, second, cover, allFour(0.0f), 15u), 0u);
   EXPECT_EQ(MeshClearance(mesh).farther(first, second, cover, allFour(0.0f), 15u), 0u);
   ASSERT_TRUE(makeLattice(mesh));
