@@ -15,6 +15,13 @@
 
 namespace hgrid {
 namespace bench {
+
+#ifndef HGRID_BENCH_STATES
+void runStates(const Options&, std::vector<Record>&) {
+  std::printf("\n-- without states: FCL, urdfdom, console_bridge or tinyxml2 was not found when this program was built\n");
+}
+#endif
+
 namespace {
 
 std::string processor() {
@@ -37,18 +44,25 @@ int run(const Options& options) {
   for (const std::string& name : missingPeers())
     std::printf("-- without %s: its library was not found when this program was built\n", name.c_str());
   std::vector<Record> records{runRecord(options)};
-  if (options.part("pairs")) runPairs(options, records);
-  if (options.part("loading") && !(options.quick && options.parts.empty())) runLoadings(options, records);
-  if (options.part("ageing")) runAgeing(options, records);
-  if (options.part("threads") && options.peer("hgrid")) runThreads(options, records);
-  if (options.part("queries")) runQueries(options, records);
-  if (options.part("book") && !options.parts.empty()) runBook(options, records);  // only if it is named
-  if (options.part("maps") && !(options.quick && options.parts.empty())) runMaps(options, records);
-  if (options.part("meshes")) runMeshes(options, records);
-  if (options.part("history")) runHistory(options, records);
-#ifdef HGRID_BENCH_STATES
-  if (options.part("states")) runStates(options, records);
-#endif
+  const bool named = !options.parts.empty();
+  // Runs a part that is named, or if none is named and this part usually runs. A named part must measure something.
+  const auto part = [&](const std::string& name, bool usual, void (*measure)(const Options&, std::vector<Record>&)) {
+    if (!options.part(name) || (!named && !usual)) return;
+    const std::size_t before = records.size();
+    measure(options, records);
+    if (named && records.size() == before)
+      throw std::runtime_error("--part " + name + " measured nothing: what it needs is missing, or no option selects it");
+  };
+  part("pairs", true, runPairs);
+  part("loading", !options.quick, runLoadings);
+  part("ageing", true, runAgeing);
+  part("threads", true, runThreads);
+  part("queries", true, runQueries);
+  part("book", false, runBook);
+  part("maps", !options.quick, runMaps);
+  part("meshes", true, runMeshes);
+  part("history", true, runHistory);
+  part("states", true, runStates);
   if (!options.json.empty()) writeRecords(options.json, records);
   return 0;
 }

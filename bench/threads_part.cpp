@@ -85,6 +85,7 @@ Record play(const std::string& workload, std::size_t n, bool quick) {
 }  // namespace
 
 void runThreads(const Options& options, std::vector<Record>& records) {
+  if (!options.peer("hgrid")) return;
   std::vector<std::size_t> sizes{100000, 1000000};
   if (options.quick) sizes.pop_back();
   if (!options.sizes.empty()) sizes = options.sizes;

@@ -11,10 +11,8 @@ export PATH="/usr/bin:/usr/sbin:$PATH"  # ROS needs the python3 of the system; a
 build_packages=(
   catkin cmake g++ make ros-core-dev
   libassimp-dev libconsole-bridge-dev libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev libeigen3-dev
-  libfcl-dev libgtest-dev libnodelet-dev
-  libnodeletlib-dev libtf2-msgs-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev libyaml-cpp-dev
-  pluginlib-dev
-  python3-setuptools
+  libfcl-dev libnodelet-dev libnodeletlib-dev libtf2-msgs-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev
+  libyaml-cpp-dev pluginlib-dev python3-setuptools
 )
 demo_packages=(
   python3-diagnostic-msgs python3-geometry-msgs python3-numpy python3-roslaunch python3-rospy python3-rosservice python3-rostopic
@@ -23,7 +21,7 @@ demo_packages=(
 )
 # shellcheck disable=SC2034  # read by scripts/test
 test_packages=(
-  "${demo_packages[@]}" catkin-lint libfaketime libnodeletlib-tools liboctomap-dev libtf2-dev locales
+  "${demo_packages[@]}" catkin-lint libfaketime libgtest-dev libnodeletlib-tools liboctomap-dev libtf2-dev locales
   python3-dynamic-reconfigure python3-rosbag python3-rosnode python3-rosparam python3-rostest ros-trajectory-msgs rosbash
   rospack-tools
 )
@@ -31,10 +29,6 @@ test_packages=(
 docs_packages=(doxygen)
 # shellcheck disable=SC2034
 long_test_packages=(clang g++-aarch64-linux-gnu googletest libclang-rt-dev qemu-user)
-
-# Options of cmake that turn warnings into errors. The compilers of Debian 12 give no warnings; others may.
-werror=(-DHGRID_WERROR=ON)
-[[ ${ROS_DISTRO:-} != noetic ]] || werror=()
 
 # When the script ends for any reason, end() stops all background processes and removes the scratch folder.
 started=()
@@ -114,7 +108,7 @@ build() {
   local out=$root/build/release
   local -a options=(
     -DCMAKE_BUILD_TYPE=Release "-DCATKIN_DEVEL_PREFIX=$root/devel"
-    -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 "${werror[@]}" "$@"
+    -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 "$@"
   )
   if [[ ! -f $out/Makefile || $(cat "$out/.options" 2>/dev/null) != "${options[*]}" ]]; then
     say "configuring"

@@ -45,10 +45,9 @@ std::shared_ptr<const StateChecker> CheckerCache::get(const Tick& tick, const Lo
   return checker;
 }
 
-void CheckerCache::dropUnused() {
+void CheckerCache::dropUnused(Clock::time_point now) {
   std::vector<Entry> dropped;  // destroyed after the mutex is unlocked
   const std::lock_guard<std::mutex> lock(mutex_);
-  const Clock::time_point now = Clock::now();
   while (!entries_.empty() && now - entries_.back().used > kUnused) {
     dropped.push_back(std::move(entries_.back()));
     entries_.pop_back();

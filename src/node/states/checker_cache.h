@@ -18,6 +18,7 @@ namespace hgrid {
 /// threads may use it.
 class CheckerCache {
  public:
+  using Clock = std::chrono::steady_clock;
   static constexpr std::size_t kMost = 4;  ///< number of checkers that are kept
 
   /// Returns the checker of a robot in the snapshot of a tick. Makes it if it is not kept.
@@ -26,10 +27,9 @@ class CheckerCache {
                                           const StateCheckerOptions& options,
                                           const std::shared_ptr<const NarrowPhase>& narrow_phase);
   /// Drops the checkers that were not used for a second. Call this regularly.
-  void dropUnused();
+  void dropUnused(Clock::time_point now = Clock::now());
 
  private:
-  using Clock = std::chrono::steady_clock;
   struct Entry {
     std::string robot;
     StateCheckerOptions options;

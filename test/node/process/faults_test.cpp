@@ -183,7 +183,7 @@ TEST_F(Faults, AQueryDoesNotWaitForQueriesThatHang) {
   const auto ended = [](std::future<msg::Answer>& other) {
     return other.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   };
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // until these queries are in progress
+  for (int hanging = 0; hanging < 7;) ros::param::get(node_.named("hanging"), hanging);
   EXPECT_EQ(node_.sphere(0, 0, 0, 0.05).answer.verdict, msg::Verdict::HIT);
   EXPECT_TRUE(std::none_of(others.begin(), others.end(), ended)) << "they hang until the fault is repaired";
   breakDown("");

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // The node with a narrow phase that throws exceptions for tests. The parameter ~fault names the function that throws;
-// ~fault_kind is the kind of the exception. While ~fault is "hang", measurements do not end. If the environment
+// ~fault_kind is the kind of the exception. While ~fault is "hang", measurements do not end, and ~hanging is the number of
+// those that have begun to hang. If the environment
 // variable HGRID_MOST_THREADS is set, the node can create only so many threads, not counting those of roscpp. The exit
 // code is 2 if the node destroys its parts while threads still use them.
 #include <dlfcn.h>
@@ -79,6 +80,7 @@ class FaultyPhase final : public NarrowPhase {
   }
   Proximity measure(const PlacedSolid& first, const PlacedSolid& second, double up_to) const override {
     throwIf("measure");
+    if (isFault("hang")) ros::param::set("~hanging", ++hanging_);
     while (isFault("hang") && ros::ok()) {
     }
     return sound_->measure(first, second, up_to);
@@ -102,6 +104,7 @@ class FaultyPhase final : public NarrowPhase {
     throw std::runtime_error("a fault in " + function);
   }
   const int alive_before_ = g_threads_alive;
+  mutable std::atomic<int> hanging_{0};
   std::shared_ptr<NarrowPhase> sound_ = makeFclNarrowPhase();
 };
 

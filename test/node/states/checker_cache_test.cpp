@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <thread>
-
 #include "hgrid_proximity/adapters/urdf.h"
 #include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "test/support/refusals.h"
@@ -80,8 +78,7 @@ TEST_F(CheckerCacheTest, DropsWhatIsNotUsed) {
   EXPECT_FALSE(checkers[2].expired());
   cache_.dropUnused();
   EXPECT_FALSE(checkers[2].expired());
-  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
-  cache_.dropUnused();
+  cache_.dropUnused(CheckerCache::Clock::now() + std::chrono::milliseconds(1100));
   for (const auto& checker : checkers) EXPECT_TRUE(checker.expired());
 }
 
