@@ -1,4 +1,4 @@
-# The sources of the core, which needs C++17 and Eigen but not ROS. The package and the project in test/ use this list.
+# The sources of the core, for core/CMakeLists.txt, and those of the adapters.
 set(HGRID_CORE_SOURCES
   src/bodies/forward_kinematics.cpp
   src/bodies/group_tree.cpp

@@ -3,7 +3,9 @@
 #include "node/sources/mesh_policy.h"
 
 #include <dlfcn.h>
+#include <link.h>
 #include <ros/package.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
@@ -17,17 +19,30 @@ namespace {
 
 constexpr int kMeshTimeouts = 4;  // all files of a loader together have this many times the timeout of one file
 
-/// Returns the path of the helper executable that reads meshes. It is in the folder hgrid_proximity/, which is next to
-/// this library.
-std::string meshReader() {
+/// Returns the folder of the file that contains this code: the node's library, or a program or nodelet that it was
+/// linked into. Ends with a slash.
+std::string ownFolder() {
   Dl_info info{};
-  const auto here = reinterpret_cast<void*>(&meshReader);
-  std::string library = dladdr(here, &info) != 0 && info.dli_fname != nullptr ? info.dli_fname : "";
-  if (char* resolved = realpath(library.c_str(), nullptr)) {
-    library = resolved;
+  void* map = nullptr;
+  if (dladdr1(reinterpret_cast<void*>(&ownFolder), &info, &map, RTLD_DL_LINKMAP) == 0) return "";
+  std::string file = static_cast<const link_map*>(map)->l_name;
+  if (file.empty()) file = "/proc/self/exe";  // the program itself has no name here
+  if (char* resolved = realpath(file.c_str(), nullptr)) {
+    file = resolved;
     std::free(resolved);
   }
-  return library.substr(0, library.find_last_of('/')) + "/hgrid_proximity/proximity_mesh_reader";
+  return file.substr(0, file.find_last_of('/') + 1);
+}
+
+/// Returns the path of the helper executable that reads meshes. Libraries are in lib/ or, in packages of Debian, in
+/// lib/<architecture>/. Programs are in lib/hgrid_proximity/.
+std::string meshReader() {
+  const std::string here = ownFolder();
+  for (const char* folder : {"", "../hgrid_proximity/"}) {
+    const std::string reader = here + folder + "proximity_mesh_reader";
+    if (access(reader.c_str(), X_OK) == 0) return reader;
+  }
+  return here + "hgrid_proximity/proximity_mesh_reader";
 }
 
 /// Returns the folders in which file:// may read files: the folders of ROS_PACKAGE_PATH and ~mesh_roots.
