@@ -4,6 +4,7 @@
 """Runs the doctor in real systems, some of them broken. Checks its findings and its exit code."""
 import os
 import pathlib
+import re
 import signal
 import sys
 import unittest
@@ -56,7 +57,8 @@ class DoctorSystems(unittest.TestCase):
         self.system.set("/arm/robot_description", ARM)
         self.system.set("/cell/prox/robots", [LEFT_ARM])
         self.system.set("/cell/prox/obstacles", [TABLE])
-        self.system.state_publisher("robot_description:=/arm/robot_description", "_tf_prefix:=left")
+        self.system.set("/arm/tf_description", re.sub('link( name)?="', r"\g<0>left/", ARM))
+        self.system.state_publisher("robot_description:=/arm/tf_description")
         self.system.joint_states()
         self.system.node(complete, name="/cell/prox")
         self.expect(0)

@@ -67,7 +67,8 @@ VirtualJoint virtualJointOf(const tinyxml2::XMLElement& element) {
 
 JointGroups readJointGroups(const std::string& xml, const DescriptionLimits& limits) {
   tinyxml2::XMLDocument document;
-  const tinyxml2::XMLElement& robot = parseXml(xml, limits, "the SRDF", "robot", document);
+  parseXml(xml, limits, "the SRDF", "robot", document);
+  const tinyxml2::XMLElement& robot = *document.RootElement();
   JointGroups all;
   forEach(robot, "group", [&](const auto& element) { all.groups.push_back(groupOf(element)); });
   forEach(robot, "virtual_joint", [&](const auto& element) { all.virtual_joints.push_back(virtualJointOf(element)); });
@@ -76,7 +77,8 @@ JointGroups readJointGroups(const std::string& xml, const DescriptionLimits& lim
 
 LinkRules readSrdf(const std::string& xml, const DescriptionLimits& limits) {
   tinyxml2::XMLDocument document;
-  const tinyxml2::XMLElement& robot = parseXml(xml, limits, "the SRDF", "robot", document);
+  parseXml(xml, limits, "the SRDF", "robot", document);
+  const tinyxml2::XMLElement& robot = *document.RootElement();
   LinkRules rules;
   rules.disabled = pairsOf(robot, "disable_collisions");
   rules.enabled = pairsOf(robot, "enable_collisions");

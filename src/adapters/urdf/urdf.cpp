@@ -244,7 +244,8 @@ RobotLink linkOf(const urdf::Link& source, int parent, const ShapeLimits& limits
 RobotModel readUrdf(const std::string& xml, const MeshSource& meshes, const DescriptionLimits& limits,
                     const ShapeLimits& shape_limits, const VisualChoice& takes_visual) {
   tinyxml2::XMLDocument document;
-  const tinyxml2::XMLElement& robot = parseXml(xml, limits, "the URDF", "robot", document);
+  parseXml(xml, limits, "the URDF", "robot", document);
+  const tinyxml2::XMLElement& robot = *document.RootElement();
   checkCounts(robot, limits);
   checkTree(robot);
   const urdf::ModelInterfaceSharedPtr tree = parseTree(robot);

@@ -63,8 +63,8 @@ void scan(const std::string& xml, const DescriptionLimits& limits, const std::st
 
 }  // namespace
 
-const tinyxml2::XMLElement& parseXml(const std::string& xml, const DescriptionLimits& limits, const std::string& what,
-                                     const char* root, tinyxml2::XMLDocument& document) {
+void parseXml(const std::string& xml, const DescriptionLimits& limits, const std::string& what, const char* root,
+              tinyxml2::XMLDocument& document) {
   if (xml.size() > limits.max_bytes) {
     throw Refusal(Code::limit, what + " has " + std::to_string(xml.size()) + " bytes; at most " +
                                    std::to_string(limits.max_bytes) + " are allowed");
@@ -84,7 +84,6 @@ const tinyxml2::XMLElement& parseXml(const std::string& xml, const DescriptionLi
                                    "> in line " + std::to_string(element == nullptr ? 1 : element->GetLineNum()) +
                                    "; its root element must be <" + root + ">");
   }
-  return *element;
 }
 
 void checkXml(const std::string& xml, const DescriptionLimits& limits, const std::string& what) {

@@ -10,10 +10,10 @@
 
 namespace hgrid {
 
-/// Checks the text like checkXml() and parses the text into `document`. Returns the root element.
+/// Checks the text like checkXml() and parses the text into `document`, which then has a root element.
 /// @param root  the name that the root element must have
 /// @throws Refusal in the same cases as checkXml()
-const tinyxml2::XMLElement& parseXml(const std::string& xml, const DescriptionLimits& limits, const std::string& what,
-                                     const char* root, tinyxml2::XMLDocument& document);
+void parseXml(const std::string& xml, const DescriptionLimits& limits, const std::string& what, const char* root,
+              tinyxml2::XMLDocument& document);
 
 }  // namespace hgrid

@@ -95,7 +95,8 @@ void addWithin(std::vector<SearchTask>& tasks, const Layer& layer) {
 /// Adds tasks that test the boxes of two layers against each other.
 void addAcross(std::vector<SearchTask>& tasks, const Layer& a, const Layer& b) {
   if (a.levels().empty() || b.levels().empty()) return;
-  for (const auto& [some, others] : {std::make_pair(&a, &b), std::make_pair(&b, &a)}) {
+  const std::pair<const Layer*, const Layer*> orders[] = {{&a, &b}, {&b, &a}};
+  for (const auto& [some, others] : orders) {
     if (some->isDivided() && !others->isDivided() && some->size() <= others->size()) {
       for (const kernels::Level& level : others->levels()) addRegionsAcross(tasks, *some, level);
       return;

@@ -6,6 +6,8 @@
 #include <ros/param.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <regex>
+
 #include "test/node/support/built.h"
 #include "test/support/robots.h"
 
@@ -13,6 +15,16 @@ namespace hgrid {
 namespace test {
 
 Cell* RobotsTest::cell_ = nullptr;
+
+namespace {
+
+/// Returns the URDF with "PREFIX/" before the name of each link. (Some versions of robot_state_publisher have no
+/// tf_prefix.)
+std::string withPrefix(const std::string& prefix, const std::string& urdf) {
+  return std::regex_replace(urdf, std::regex("link( name)?=\""), "$&" + prefix + "/");
+}
+
+}  // namespace
 
 Eigen::Isometry3d Robot::worldFromRoot() const {
   return Eigen::Translation3d(base) * Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
@@ -30,9 +42,10 @@ Cell::Cell() {
     });
     ros::param::set("/" + robot.name + "/robot_description", real.urdf);
     ros::param::set("/" + robot.name + "/robot_description_semantic", real.srdf);
+    ros::param::set("/" + robot.name + "/tf_description", withPrefix(robot.name, real.urdf));
     publishers.push_back(std::make_unique<Child>(
         std::vector<std::string>{"rosrun", "robot_state_publisher", "robot_state_publisher", "__ns:=/" + robot.name,
-                                 "_tf_prefix:=" + robot.name, "_publish_frequency:=200"}));
+                                 "robot_description:=tf_description", "_publish_frequency:=200"}));
     puppets.push_back({robot.name, robot.witness.get()});
   }
   placeBases();

@@ -196,7 +196,8 @@ void FreshnessModel::tick(double time, double now, double elapsed) {
     known.at_tick = x.has_value() && known.connected && isChainKnown(name, time);
     if (!known.at_tick) {
       stamp = newestTime(name, known.placed ? time : 1e9);
-      x = stamp && known.connected && isChainKnown(name, *stamp) ? positionAt(name, *stamp) : std::nullopt;
+      x.reset();
+      if (stamp && known.connected && isChainKnown(name, *stamp)) x = positionAt(name, *stamp);
     }
     if (!known.at_tick && was_contested) known.contested = true;  // the last pose may come from any of the publishers
     const bool older = x && stamp && known.placed && !known.at_tick && *stamp < known.stamp;

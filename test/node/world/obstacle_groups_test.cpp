@@ -23,7 +23,7 @@ msg::Obstacle turned(msg::Obstacle change, double angle) {
   return change;
 }
 
-const Pose& poseOf(const Snapshot& snapshot, const std::string& name) {
+Pose poseOf(const Snapshot& snapshot, const std::string& name) {
   return snapshot.poses()[snapshot.structure().find(name)].world_from_body;
 }
 
@@ -33,7 +33,7 @@ TEST_F(Obstacles, OfOneGroupMoveAsOneRigidBody) {
   apply({turned(moving("left", 5), M_PI_2)});
   const Snapshot& snapshot = tick();
   EXPECT_EQ(placesIn(snapshot), (Places{{"left", 5}, {"other", 4}, {"post", 3}, {"right", 5}}));
-  const Pose& right = poseOf(snapshot, "obstacle/right");
+  const Pose right = poseOf(snapshot, "obstacle/right");
   EXPECT_NEAR(right.translation().y(), 1.0, 1e-12) << "it was beside the other one, which was turned";
   EXPECT_NEAR(right.linear()(1, 0), 1.0, 1e-12);
   apply({moving("right", 0)});
