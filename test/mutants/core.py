@@ -3,12 +3,14 @@
 """Builds and tests mutants of the core, in a copy of the sources under build/mutants."""
 
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COPY = ROOT / "build" / "mutants"
+FEW_VALUES = re.findall("^HGRID_TEST.*", (ROOT / "test/support/few_values").read_text(), re.MULTILINE)
 PROGRAMS = COPY / "programs"  # one folder with test programs for each mutant that is being tested
 TESTS = ["geometry_test", "broadphase_test", "maps_test", "bodies_test", "pairs_test", "world_test", "history_test",
          "queries_test", "distances_test", "explain_test", "planes_test", "narrow_test", "states_test"]
@@ -16,7 +18,7 @@ TESTS = ["geometry_test", "broadphase_test", "maps_test", "bodies_test", "pairs_
 
 def prepare():
     """Copies the files that the core's tests need, and configures the build of the copy."""
-    for folder in ["cmake", "include", "src", "msg", "test"]:
+    for folder in ["cmake", "core", "include", "src", "msg", "test"]:
         for source in (ROOT / folder).rglob("*"):
             target = COPY / source.relative_to(ROOT)
             if source.is_dir() or "mutants" in source.parts[len(ROOT.parts):]:
@@ -58,7 +60,7 @@ def commands(name, tests):
     folder.mkdir(parents=True, exist_ok=True)
     for test in tests:
         shutil.copy(COPY / "build" / test, folder)
-    return [["env", "HGRID_TEST_WORLDS=400", str(folder / test)] for test in tests], folder
+    return [["env"] + FEW_VALUES + [str(folder / test)] for test in tests], folder
 
 
 def compile_tests():

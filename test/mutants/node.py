@@ -13,6 +13,8 @@ import shlex
 import subprocess
 import sys
 
+from core import FEW_VALUES
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COPY = ROOT / "build" / "mutants" / "node"
 FLAGS = ROOT / "build" / "release" / "CMakeFiles" / "hgrid_proximity_node.dir" / "flags.make"
@@ -49,7 +51,7 @@ def build(name, file, text):
 
 
 def commands(variables):
-    return [["env", "HGRID_TEST_HISTORIES=3000"] + variables + [str(PROGRAMS / test)] for test in TESTS]
+    return [["env"] + FEW_VALUES + variables + [str(PROGRAMS / test)] for test in TESTS]
 
 
 def flags():
