@@ -4,7 +4,10 @@
 """Asks the running node from Python: sends queries over persistent connections, and checks every message of ~pairs.
 
 Start it beside any launch file of this package: rosrun hgrid_proximity ask.py
+Takes no arguments but ROS remappings, such as __ns:=NAMESPACE.
 """
+
+import argparse
 
 import rospy
 from hgrid_proximity.client import Proximity
@@ -37,6 +40,8 @@ def on_pairs(pairs):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.parse_args(rospy.myargv()[1:])
     rospy.init_node("ask", anonymous=True)
     rospy.Subscriber(NODE + "/pairs", PairArrays, on_pairs, queue_size=1)
     proximity = Proximity(NODE)

@@ -4,10 +4,12 @@
 """Plans a motion between two joint positions with RRT-Connect (Kuffner and LaValle, 2000). The node proves that each edge
 is free. The plan is printed with three decimals; the proof is for the values before rounding.
 
-Start it beside one_arm.launch: rosrun hgrid_proximity plan.py [--joints NAME,NAME,...] START... : GOAL...
+usage: rosrun hgrid_proximity plan.py [--joints NAME,NAME,...] START... : GOAL... [REMAPPING...]
 
-START and GOAL have one value [rad or m] for each joint, in the order of --joints. The default joints are joint_1 to
-joint_6.
+Start it beside one_arm.launch. START and GOAL have one value [rad or m] for each joint, in the order of --joints. The
+default joints are joint_1 to joint_6. ROS remappings, such as __ns:=NAMESPACE, may follow.
+
+exit codes: 0 the plan was printed; 1 there is none, or the node does not answer; 2 an argument is wrong
 """
 import sys
 
@@ -71,15 +73,27 @@ def to_root(tree, node):
     return way
 
 
-def main():
-    rospy.init_node("plan", anonymous=True)
-    words, joints = rospy.myargv(sys.argv)[1:], JOINTS
+def arguments():
+    """Returns the joints, the start and the goal. Ends the program after --help, or if an argument is wrong."""
+    words, joints = rospy.myargv()[1:], JOINTS
+    if "--help" in words or "-h" in words:
+        print(__doc__)
+        sys.exit(0)
     if words[:1] == ["--joints"] and len(words) > 1:
         joints, words = words[1].split(","), words[2:]
-    numbers = " ".join(words).split(":")
-    if len(numbers) != 2 or any(len(end.split()) != len(joints) for end in numbers):
-        sys.exit(__doc__)
-    start, goal = ([float(number) for number in end.split()] for end in numbers)
+    try:
+        start, goal = ([float(number) for number in end.split()] for end in " ".join(words).split(":"))
+    except ValueError:
+        start = goal = []
+    if len(start) != len(joints) or len(goal) != len(joints):
+        print(f"plan.py: give {len(joints)} numbers, a colon and {len(joints)} numbers; see --help", file=sys.stderr)
+        sys.exit(2)
+    return joints, start, goal
+
+
+def main():
+    joints, start, goal = arguments()
+    rospy.init_node("plan", anonymous=True)
     try:
         planner = Planner(Proximity(), joints, start, goal)
         way = planner.plan()

@@ -3,14 +3,15 @@
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 """Plays the robot of an example: publishes what the drivers of a real robot would publish, at 50 Hz.
 
-usage: play_robot.py [JOINT:CENTER:AMPLITUDE...] [_base:=PARENT:CHILD:X:Y:Z:AMPLITUDE] [_post:=X:Y:HEIGHT]
-
 Each joint swings around CENTER [rad]. Its state is published on joint_states. The parameter ~base is the tf of the
 robot's base: CHILD is at X, Y, Z [m] in PARENT and drives along x by AMPLITUDE [m]. With ~post, a depth camera on
 the base sees a post in PARENT and a part of the robot itself. It publishes points in CHILD on camera/depth/points.
 All motion is a sine of the ROS time with a period of 8 s. Therefore it is the same after every start.
+
+Other ROS remappings, such as __name:=NAME, may follow.
 """
 
+import argparse
 from math import pi, sin
 
 import rospy
@@ -46,8 +47,12 @@ def points_of(post, base_x, base_y):
 
 
 def main():
+    parser = argparse.ArgumentParser(
+        usage="play_robot.py [-h] [JOINT:CENTER:AMPLITUDE...] [_base:=PARENT:CHILD:X:Y:Z:AMPLITUDE] [_post:=X:Y:HEIGHT]",
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("joints", nargs="*", type=split, metavar="JOINT:CENTER:AMPLITUDE", help="a joint that swings")
+    joints = parser.parse_args(rospy.myargv()[1:]).joints
     rospy.init_node("play_robot")
-    joints = [split(text) for text in rospy.myargv()[1:]]
     frames, place = split(rospy.get_param("~base", ""))
     post = split(rospy.get_param("~post", ""))[1]
     states = rospy.Publisher("joint_states", JointState, queue_size=10)

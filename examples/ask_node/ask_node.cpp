@@ -8,11 +8,19 @@
 #include <hgrid_proximity/client/client.h>
 #include <ros/ros.h>
 
+#include <cstdio>
 #include <string>
 
 namespace {
 
 using hgrid_proximity::Client;
+
+constexpr char kUsage[] =
+    "usage: rosrun hgrid_proximity ask_node [_body:=NAME] [REMAPPING...]\n\n"
+    "Asks the running node: sends two queries per second, and judges every message of proximity/pairs.\n\n"
+    "  _body:=NAME   also asks which bodies are nearest to this body, such as robot/gripper\n"
+    "  REMAPPING     ROS remappings, such as __name:=NAME or __ns:=NAMESPACE\n"
+    "  -h, --help    print this text and end\n";
 
 /// Sends the request and prints the answer. Only CLEAR means that nothing is there.
 template <class Request>
@@ -49,6 +57,12 @@ void onPairs(const hgrid_proximity::Pairs& pairs) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  ros::V_string words;
+  ros::removeROSArgs(argc, argv, words);
+  if (words.size() > 1) {  // before ros::init(): asking for help must not start a node
+    if (words[1] == "--help" || words[1] == "-h") return std::fputs(kUsage, stdout), 0;
+    return std::fprintf(stderr, "ask_node: the argument '%s' is unknown; see --help\n", words[1].c_str()), 2;
+  }
   ros::init(argc, argv, "ask_node");
   ros::NodeHandle node;
   ros::AsyncSpinner spinner(1);  // with several threads, messages do not wait for answers and become too old

@@ -3,6 +3,7 @@
 //
 // Uses only the hierarchical grid: stores boxes, prints overlapping pairs and answers to queries.
 #include <cstdio>
+#include <string>
 #include <vector>
 
 #include "hgrid_proximity/broadphase/hgrid.h"
@@ -24,7 +25,13 @@ void printPairs(const hgrid::HGrid& grid) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  if (argc > 1) {
+    const std::string word = argv[1];
+    if (word != "--help" && word != "-h") return std::fputs("hgrid_alone takes no arguments\n", stderr), 2;
+    return std::puts("usage: hgrid_alone\n\nStores boxes in a grid, prints overlapping pairs and answers to queries."),
+           0;
+  }
   hgrid::HGrid grid;  // the boxes may be anywhere and of any size
   grid.insert(0, cube(0.0, 0.0, 0.0, 4.0));
   grid.insert(1, cube(2.1, 0.0, 0.0, 0.5));

@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -31,13 +32,16 @@ using State = std::vector<double>;  // one value for each variable of the robot
 constexpr char kUsage[] =
     "usage: plan_alone [--srdf FILE] [--packages FOLDER --mesh-reader PROGRAM] [--at X Y Z] FILE.urdf FILE.bt START... "
     ": "
-    "GOAL...\n"
+    "GOAL...\n\n"
+    "Plans a motion of a robot through a map, proves that it is free, and prints it.\n\n"
+    "  -h, --help             print this text and end\n"
     "  --srdf FILE            SRDF file that says which pairs of links may touch\n"
     "  --packages FOLDER      folder that contains the ROS packages with the meshes of the robot\n"
     "  --mesh-reader PROGRAM  path of the program proximity_mesh_reader, which reads these meshes\n"
     "  --at X Y Z             position of the root link in the frame of the map [m]; default: 0 0 0\n"
     "  START, GOAL            one value for each joint variable [rad or m], separated by spaces. If their number is\n"
-    "                         wrong, the program prints the names of the variables in their order.\n";
+    "                         wrong, the program prints the names of the variables in their order.\n"
+    "exit codes: 0 a free motion was found; 1 none was found, or a file cannot be read; 2 wrong arguments\n";
 
 std::string textOf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -207,22 +211,30 @@ bool checkEnd(const char* name, const hgrid::StateChecker& checker, const hgrid:
 }
 
 struct Arguments {
+  bool help = false;
   std::map<std::string, std::string> options;
   std::vector<std::string> files;
   hgrid::Pose world_from_root = hgrid::Pose::Identity();
   State start, goal;
 };
 
-/// Reads the command line. @throws std::exception if it is not as kUsage says
+/// Reads the command line. @throws std::logic_error if it is not as kUsage says
+/// @throws std::runtime_error with one sentence if an option is unknown
 Arguments read(std::vector<std::string> words) {
   Arguments arguments;
   std::size_t i = 0;
-  for (; i < words.size() && words[i].rfind("--", 0) == 0; ++i) {
+  for (; i < words.size() && words[i].rfind("-", 0) == 0; ++i) {
+    if (words[i] == "--help" || words[i] == "-h") {
+      arguments.help = true;
+      return arguments;
+    }
     if (words[i] == "--at") {
       for (int axis = 0; axis < 3; ++axis) arguments.world_from_root.translation()[axis] = std::stod(words.at(++i));
-    } else {
+    } else if (words[i] == "--srdf" || words[i] == "--packages" || words[i] == "--mesh-reader") {
       const std::string name = words[i];
       arguments.options[name] = words.at(++i);
+    } else {
+      throw std::runtime_error("the option " + words[i] + " is unknown; --help lists all options");
     }
   }
   for (int file = 0; file < 2; ++file) arguments.files.push_back(words.at(i++));
@@ -267,9 +279,12 @@ int main(int argc, char** argv) {
   Arguments arguments;
   try {
     arguments = read({argv + 1, argv + argc});
-  } catch (const std::exception&) {
+  } catch (const std::runtime_error& error) {
+    return std::fprintf(stderr, "plan_alone: %s\n", error.what()), 2;
+  } catch (const std::logic_error&) {
     return std::fputs(kUsage, stderr), 2;
   }
+  if (arguments.help) return std::fputs(kUsage, stdout), 0;
   try {
     return plan(arguments);
   } catch (const std::exception& error) {

@@ -18,6 +18,10 @@
 
 namespace {
 
+constexpr char kUsage[] =
+    "usage: scene_queries FILE.urdf\n\n"
+    "Places a robot beside a table, lists the near pairs with their distances, and asks what a sphere touches.\n";
+
 /// Adds a body whose pose is known.
 void put(hgrid::Scene& scene, hgrid::NarrowPhase& narrow, hgrid::Body body, const hgrid::Pose& world_from_body) {
   for (hgrid::BodyShape& shape : body.shapes) shape.solid = narrow.solidOf(shape.shape);  // needed for exact distances
@@ -52,9 +56,11 @@ void putRobot(hgrid::Scene& scene, hgrid::NarrowPhase& narrow, const hgrid::Robo
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::ifstream file(argc == 2 ? argv[1] : "");
+  const std::string word = argc > 1 ? argv[1] : "";
+  if (word == "--help" || word == "-h") return std::fputs(kUsage, stdout), 0;
+  std::ifstream file(argc == 2 ? word : "");
   const std::string urdf(std::istreambuf_iterator<char>(file), {});
-  if (urdf.empty()) return std::fprintf(stderr, "usage: scene_queries FILE.urdf\n"), 2;
+  if (urdf.empty()) return std::fputs("scene_queries needs the path of a URDF file; see --help\n", stderr), 2;
   const std::shared_ptr<hgrid::NarrowPhase> narrow = hgrid::makeFclNarrowPhase();
   hgrid::Scene scene{hgrid::SceneOptions{}};
   putRobot(scene, *narrow, hgrid::readUrdf(urdf, {}), 0.7);  // {}: no mesh loader, because this robot has no mesh files

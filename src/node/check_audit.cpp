@@ -1,25 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-//
-// usage: rosrun hgrid_proximity check_audit FILE
-//
-// Repeats the audit of a file that the node wrote to ~audit_folder, and prints the differences, one per line. The exit
-// code is 0 if there is none, 1 if there are some, and 2 if the file cannot be read.
+// check_audit: repeats the audit of a file. kUsage says more.
 #include <cstdio>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "hgrid_proximity/refusal.h"
 #include "node/audit/audit.h"
 #include "node/audit/case_file.h"
 
+namespace {
+
+constexpr char kUsage[] =
+    "usage: rosrun hgrid_proximity check_audit FILE\n\n"
+    "Repeats the audit of a file that the node wrote to ~audit_folder, and prints the differences, one per line. "
+    "Needs\n"
+    "no ROS master and ignores ROS remappings.\n\n"
+    "options:\n"
+    "  -h, --help  print this text and end\n\n"
+    "exit codes:\n"
+    "  0  there is no difference\n"
+    "  1  there are differences\n"
+    "  2  an argument is wrong, or the file cannot be read\n";
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fputs("usage: rosrun hgrid_proximity check_audit FILE\n", stderr);
+  std::vector<std::string> words;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--help" || word == "-h") return std::fputs(kUsage, stdout), 0;
+    if (word.find(":=") == std::string::npos) words.push_back(word);
+  }
+  if (words.size() != 1 || words.front().rfind('-', 0) == 0) {
+    std::fputs("check_audit: the only argument must be the path of a file; --help says more\n", stderr);
     return 2;
   }
-  std::ifstream file(argv[1]);
+  std::ifstream file(words.front());
   if (!file) {
-    std::fprintf(stderr, "the file '%s' cannot be opened\n", argv[1]);
+    std::fprintf(stderr, "the file '%s' cannot be opened\n", words.front().c_str());
     return 2;
   }
   try {

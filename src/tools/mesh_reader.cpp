@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-// Usage: proximity_mesh_reader KIND MAX_TRIANGLES MAX_MEMORY CPU_SECONDS < file > mesh
-//
-// Reads a mesh file of kind stl, dae or obj from standard input and writes the mesh to standard output. The format of
-// the output is in mesh_stream.h.
+// proximity_mesh_reader: reads a mesh file from standard input and writes the mesh to standard output. kUsage lists the
+// arguments. The format of the output is in mesh_stream.h.
 //
 // The parser may crash or hang on a broken file, so it runs in this process and not in the node. The process first sets
 // limits for its own memory, time and files.
@@ -17,6 +15,7 @@
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -33,6 +32,18 @@ namespace {
 using hgrid::Code;
 using hgrid::Refusal;
 using hgrid::StreamHeader;
+
+constexpr char kUsage[] =
+    "usage: proximity_mesh_reader KIND MAX_TRIANGLES MAX_MEMORY CPU_SECONDS < FILE > MESH\n\n"
+    "Reads a mesh file and writes its triangles in a binary format. The proximity node starts this program for each "
+    "mesh\n"
+    "file of a robot, because a broken file may crash the reader.\n\n"
+    "  KIND           stl, dae or obj\n"
+    "  MAX_TRIANGLES  largest number of triangles\n"
+    "  MAX_MEMORY     largest memory of the process [bytes]\n"
+    "  CPU_SECONDS    largest CPU time of the process [s]\n"
+    "  -h, --help     print this text and end\n\n"
+    "exit codes: 0 the output is a mesh or says why there is none; 2 wrong arguments; others: the reader crashed\n";
 
 struct Mesh {
   std::vector<std::array<float, 3>> vertices;
@@ -139,7 +150,10 @@ void writeRefusal(Code code, const std::string& sentence) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 5) return 2;
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--help") == 0 || std::strcmp(argv[i], "-h") == 0) return std::fputs(kUsage, stdout), 0;
+  }
+  if (argc != 5) return std::fputs("proximity_mesh_reader needs four arguments; --help lists them\n", stderr), 2;
   const auto number = [&](int i) { return std::strtoull(argv[i], nullptr, 10); };
   limitProcess(number(3), number(4));
   try {

@@ -249,7 +249,7 @@ TEST(Shutdown, IsLoggedAndHasExitCode3IfAnotherNodeTakesTheName) {
   NodeUnderTest first(setupOfWorld());
   const std::string name = first.space() + "/proximity";
   first.waitForTicks(1);  // if the first node still registered topics, the master would end the second node
-  ChildProcess second({built(HGRID_NODE), "__ns:=" + first.space(), "__name:=proximity"}, "/dev/null", {});
+  ChildProcess second({built(HGRID_NODE), "--replace", "__ns:=" + first.space(), "__name:=proximity"}, "/dev/null", {});
   EXPECT_EQ(first.process().waitForEnd(20.0).value_or(-1), 3);
   EXPECT_EQ(first.lines("Another node has registered under the name '" + name + "'"), 1u) << first.output();
   EXPECT_TRUE(second.alive());

@@ -12,4 +12,7 @@ namespace hgrid {
 /// Call this once, before ros::init(), which must be given ros::init_options::NoSigintHandler.
 void shutDownOnSignals();
 
+/// Returns whether one of these signals has arrived. Any thread may call this.
+bool endRequested();
+
 }  // namespace hgrid

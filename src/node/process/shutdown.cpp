@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/shutdown.h"
+#include "node/process/shutdown.h"
 
 #include <ros/init.h>
 #include <unistd.h>
@@ -52,5 +52,7 @@ void shutDownOnSignals() {
   handle(SIGTERM, onEndSignal);
   if (!isIgnored(SIGHUP)) handle(SIGHUP, onEndSignal);
 }
+
+bool endRequested() { return g_ending != 0; }
 
 }  // namespace hgrid

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/name_watch.h"
+#include "node/process/name_watch.h"
 
 #include <ros/connection_manager.h>
 #include <ros/console.h>

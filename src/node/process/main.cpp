@@ -1,21 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-// proximity_node: reports which robot links and obstacles are near each other. See README.md.
-//
-// Exit codes: 0 after SIGINT, SIGTERM, SIGHUP or `rosnode kill`; 1 if the node cannot start, for
-// example because a parameter is wrong; NameWatch::kExitCode if another node has taken the name.
+// proximity_node: reports which robot links and obstacles are near each other. See README.md. kUsage in
+// command_line.cpp lists the options and exit codes.
 
 #include <ros/ros.h>
 
+#include <cstdio>
 #include <exception>
+#include <optional>
 
-#include "node/name_watch.h"
+#include "node/process/command_line.h"
+#include "node/process/name_holder.h"
+#include "node/process/name_watch.h"
+#include "node/process/shutdown.h"
 #include "node/proximity_node.h"
-#include "node/shutdown.h"
 
 int main(int argc, char** argv) {
+  hgrid::CommandLine line;
+  try {
+    line = hgrid::readCommandLine(argc, argv);
+  } catch (const std::exception& error) {
+    return std::fprintf(stderr, "proximity_node: %s\n", error.what()), 2;
+  }
+  if (line.help) return std::fputs(hgrid::kUsage, stdout), 0;
+
   hgrid::shutDownOnSignals();  // before ros::init(), which may wait for the master
   ros::init(argc, argv, "proximity", ros::init_options::NoSigintHandler);
+  if (const std::optional<int> code = hgrid::exitCodeOfNameConflict(line.name_conflict)) return *code;
   const hgrid::NameWatch name_watch;
   ros::NodeHandle node, private_node("~");
   try {
