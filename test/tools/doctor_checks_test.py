@@ -4,9 +4,13 @@
 """Tests the checks of the doctor with invented facts. It must find each cause and report it once. Needs no ROS."""
 import json
 import pathlib
+import re
+import shlex
 import sys
 import unittest
 from types import SimpleNamespace
+
+import yaml
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "support"))
 
@@ -17,10 +21,15 @@ from sound_facts import (  # noqa: E402  (the path comes first)
 
 from hgrid_doctor import report  # noqa: E402
 from hgrid_doctor.checks import diagnose  # noqa: E402
-from hgrid_doctor.facts import LOST, STALE, UNPLACED  # noqa: E402
+from hgrid_doctor.facts import LOST, STALE, UNPLACED, MeshError, MeshFlaw  # noqa: E402
 from hgrid_doctor.finding import EXIT_ERROR, EXIT_OK, EXIT_WARN, exit_code  # noqa: E402
 from hgrid_doctor.settings import InputSettings, read_settings  # noqa: E402
 
+NO_PACKAGE = MeshError(MeshFlaw.NO_PACKAGE, "there is no package 'arm_meshes'")
+PROGRAMS = {
+    *("cp", "date", "echo", "export", "grep", "pgrep", "source", "top", "unset", "xacro"),
+    *("rosbag", "roscore", "roslaunch", "rosnode", "rospack", "rosparam", "rosrun", "rosservice", "rostopic"),
+}
 MOVED = (1.0, *UNIT[1:])  # a pose other than UNIT
 
 
@@ -35,7 +44,17 @@ class DoctorChecks(unittest.TestCase):
         self.assertEqual(exit_code(findings), code if names else EXIT_OK)
         for finding in findings:
             self.assertTrue(finding.what.endswith(".") and finding.fix.endswith("."), finding)
+            for text in re.findall("`([^`]+)`", finding.fix):
+                self.check_typed(text)
         return findings[0] if findings else None
+
+    def check_typed(self, text):
+        """Checks a text in backticks: XML, a line of YAML, or a command that needs only ROS and a usual system."""
+        if re.match(r"\w+: ", text):
+            self.assertIsInstance(yaml.safe_load(text), dict)
+        elif not text.startswith("<param "):
+            words = [word for word in shlex.split(text) if "=" not in word.partition(":=")[0]]
+            self.assertIn(words[0], PROGRAMS, text)
 
     def unplace(self, *links, state=UNPLACED):
         """Removes the poses of these links from the node, and their frames from tf."""
@@ -50,7 +69,11 @@ class DoctorChecks(unittest.TestCase):
         self.facts.status.world.incomplete_total = 1
 
     def add_input(self, name, reason, **settings):
-        self.facts.settings.inputs = [InputSettings(name, type="sensor_msgs/PointCloud2", **settings)]
+        parameter = name.partition("/")[0] + "s"
+        self.facts.settings.values = {parameter: [{"name": name.partition("/")[2], **settings}]}
+        self.facts.settings.inputs = [
+            InputSettings(name, type="sensor_msgs/PointCloud2", parameter=parameter, **settings)
+        ]
         self.break_source(name, reason)
 
     def without_node(self):
@@ -64,6 +87,15 @@ class DoctorChecks(unittest.TestCase):
         self.assertIn("robot robot: 4 links, 3 with shapes, in 3 frames; all placed, FRESH, poses 10 ms old", text)
         self.assertIn("refused so far: nothing", text)
         self.assertTrue(text.endswith("OK: nothing wrong was found with /proximity."), text)
+
+    def test_each_finding_is_tested_here_and_its_fix_is_typed_or_has_a_reason_not_to_be(self):
+        tests = pathlib.Path(__file__).resolve().parent
+        checks = (tests.parents[1] / "tools/hgrid_doctor/checks").glob("*.py")
+        names = {name for file in checks for name in re.findall(r'findings\.add\(\s*"(\w+)"', file.read_text())}
+        self.assertGreater(len(names), 40)
+        for test in ("doctor_checks_test.py", "doctor_systems_test.py"):
+            text = (tests / test).read_text()
+            self.assertEqual([name for name in sorted(names) if f'"{name}' not in text], [], test)
 
     # The network and the node
 
@@ -179,7 +211,13 @@ class DoctorChecks(unittest.TestCase):
         self.break_source("robot", "NOT_READY robot 'robot': parameter 'robot_description' is not set")
         self.facts.status.sources[0].bodies = 0
         self.facts.robots[0].candidates = ["/arm/robot_description"]
-        self.assertIn("robot_description:=/arm/robot_description", self.expect("no_description").fix)
+        self.facts.robots[0].semantic_key = ""
+        fix = self.expect("no_description").fix
+        self.assertIn("`robots: [{name: robot, description: /arm/robot_description}]`", fix)
+        self.facts.parameters = {"/arm/robot_description_semantic"}
+        self.assertIn("semantic: /arm/robot_description_semantic}]`", self.expect("no_description").fix)
+        self.facts.robots[0].candidates = []
+        self.assertIn("`rosparam set -t my_robot.urdf /robot_description`", self.expect("no_description").fix)
 
     def test_texts_that_are_no_description(self):
         namespace = 'xmlns:xacro="http://ros.org/wiki/xacro"'
@@ -218,13 +256,28 @@ class DoctorChecks(unittest.TestCase):
         self.break_source("robot", "UNCOVERED robot/hand")
         self.facts.status.uncovered = ["robot/hand: RESOURCE_MISSING"]
         uris = [f"package://arm_meshes/{number}.stl" for number in range(30)]
-        self.facts.robots[0].mesh_errors = {uri: "there is no package 'arm_meshes'" for uri in uris}
+        self.facts.robots[0].mesh_errors = {uri: NO_PACKAGE for uri in uris}
         self.assertIn("30 mesh files", self.expect("no_mesh_package").what)
-        self.facts.robots[0].mesh_errors = {uris[0]: "there is no file /x/0.stl"}
+        self.facts.robots[0].mesh_errors = {uris[0]: MeshError(MeshFlaw.UNREADABLE, "there is no file /x/0.stl")}
         self.expect("bad_mesh")
 
+    def test_meshes_outside_of_packages_are_allowed_by_their_folders(self):
+        self.break_source("robot", "UNCOVERED robot/hand")
+        self.facts.status.uncovered = ["robot/hand: RESOURCE_DENIED"]
+        self.facts.settings.mesh_roots = ["/old"]
+        uris = ("file:///my%20meshes/a.stl", "file:///my%20meshes/b.stl")
+        self.facts.robots[0].mesh_errors = {uri: MeshError(MeshFlaw.OUTSIDE, "") for uri in uris}
+        self.assertIn("`mesh_roots: [/old, /my meshes]`", self.expect("mesh_outside").fix)
+
+    def test_meshes_that_only_this_shell_finds_are_no_reason_for_a_waiver(self):
+        self.break_source("robot", "UNCOVERED robot/hand")
+        self.facts.status.uncovered = ["robot/hand: RESOURCE_MISSING: there is no package 'arm_meshes'"]
+        finding = self.expect("no_mesh_package")
+        self.assertIn("though this shell does", finding.what)
+        self.assertIn("Start the node where the workspace of these files is sourced", finding.fix)
+
     def test_meshes_that_the_node_can_read_are_not_reported(self):
-        self.facts.robots[0].mesh_errors = {"package://arm_meshes/hand.stl": "there is no package 'arm_meshes'"}
+        self.facts.robots[0].mesh_errors = {"package://arm_meshes/hand.stl": NO_PACKAGE}
         self.expect()
 
     # SRDF
@@ -299,13 +352,15 @@ class DoctorChecks(unittest.TestCase):
     def test_another_tf_prefix(self):
         self.unplace("elbow", "hand")
         self.facts.streams = [stream("/rsp", "left/base", "left/elbow"), stream("/rsp", "left/elbow", "left/hand")]
-        self.assertIn("tf_prefix: 'left'", self.expect("wrong_tf_prefix").fix)
+        fix = self.expect("wrong_tf_prefix").fix
+        semantic = "semantic: /robot_description_semantic, tf_prefix: left"
+        self.assertIn(f"`robots: [{{name: robot, description: /robot_description, {semantic}}}]`", fix)
 
     def test_a_world_frame_that_is_unknown(self):
         self.facts.status.header.frame_id = "map"
         self.unplace("tip", state=LOST)
         self.facts.status.bodies = [body(f"robot/{link}", UNPLACED) for link in ("base", "elbow", "hand")]
-        self.assertIn("world_frame base", self.expect("wrong_world_frame").fix)
+        self.assertIn("`world_frame: base`", self.expect("wrong_world_frame").fix)
         self.facts.graph.publishers["/tf"].append("/odometry")
         self.facts.nodes["/odometry"] = NodeFacts("/odometry", error="Connection refused")
         self.expect("tf_publisher_gone")
@@ -526,7 +581,7 @@ class DoctorChecks(unittest.TestCase):
         self.add_input("cloud/front", "NOT_READY", topic="/points")
         self.facts.graph.publishers.update({"/camera/points": ["/camera"], "/rosout": ["/camera"]})
         self.facts.graph.types.update({"/camera/points": "sensor_msgs/PointCloud2", "/rosout": "rosgraph_msgs/Log"})
-        self.assertIn("~clouds: '/camera/points'.", self.expect("no_input_publisher").fix)
+        self.assertIn("`clouds: [{name: front, topic: /camera/points}]`", self.expect("no_input_publisher").fix)
 
     def test_inputs_whose_source_is_complete_are_sound(self):
         self.add_input("cloud/front", "", topic="/points")
@@ -558,10 +613,10 @@ class DoctorChecks(unittest.TestCase):
 
     def test_a_source_that_nothing_else_explains(self):
         self.break_source("obstacle", "UNPLACED obstacle/crate: it never had a pose (frame 'cart')")
-        self.assertIn("tf_echo base cart`", self.expect("source_incomplete").fix)
+        self.assertIn("{frame_id: base}, child_frame_id: cart,", self.expect("source_incomplete").fix)
         reason = "UNPLACED robot 'arm': 2 of its 9 links never had a pose: frame 'tool' was never published"
         self.break_source("obstacle", reason)
-        self.assertIn("tf_echo base tool`", self.expect("source_incomplete").fix)
+        self.assertIn("{frame_id: base}, child_frame_id: tool,", self.expect("source_incomplete").fix)
 
     def test_an_obstacle_that_no_message_on_poses_has_placed(self):
         self.break_source("obstacle", "UNPLACED obstacle/cart: it never had a pose (frame '~poses/cart')")

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from enum import Enum
 from typing import Any, Dict, List, Optional, Set, Tuple
 
 from hgrid_doctor.description import Description, Semantic
@@ -23,6 +24,7 @@ class Environment:
     ros_hostname: str = ""
     own_name: str = ""  # address that nodes of this shell announce
     own_name_error: str = ""  # why others cannot use it; empty: they can
+    address_towards_master: str = ""  # address of this computer in the network of the master; empty: unknown
 
 
 @dataclass
@@ -85,6 +87,22 @@ class TopicFacts:
         return sum(self.counts.values())
 
 
+class MeshFlaw(Enum):
+    """The kinds of reasons why a mesh cannot be read."""
+
+    NO_PACKAGE = 1
+    OUTSIDE = 2  # the file is neither in a package nor in ~mesh_roots
+    UNREADABLE = 3
+
+
+@dataclass(frozen=True)
+class MeshError:
+    """Why a mesh cannot be read."""
+
+    flaw: MeshFlaw
+    text: str
+
+
 @dataclass
 class RobotFacts:
     """A robot of the parameter ~robots, and its descriptions."""
@@ -95,7 +113,7 @@ class RobotFacts:
     description: Optional[Description] = None
     semantic_key: str = ""
     semantic: Optional[Semantic] = None
-    mesh_errors: Dict[str, str] = field(default_factory=dict)  # why a mesh cannot be read, by its URI
+    mesh_errors: Dict[str, MeshError] = field(default_factory=dict)  # by the URI of the mesh
 
 
 @dataclass
@@ -111,6 +129,7 @@ class Facts:
     pid_after: Optional[int] = None  # process id of `host` at the end of listening
     settings: Settings = field(default_factory=Settings)
     robots: List[RobotFacts] = field(default_factory=list)
+    parameters: Set[str] = field(default_factory=set)  # names of all parameters
     listened: float = 0.0  # [s] how long the doctor listened to topics
     wall: float = 0.0  # [s] wall clock at the end of listening
     topics: Dict[str, TopicFacts] = field(default_factory=dict)

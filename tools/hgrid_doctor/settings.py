@@ -30,6 +30,7 @@ class InputSettings:
     topic: str = ""  # absolute name; empty: the map comes from a file
     file: str = ""
     type: str = ""  # message type of the topic
+    parameter: str = ""  # the parameter that lists it: "maps", "clouds" or "tracks"
 
 
 @dataclass
@@ -42,11 +43,13 @@ class Settings:
     stale_after: float = 0.25
     lost_after: float = 2.0
     max_future: float = 0.5
+    max_pairs: int = 100_000
     map_folder: str = ""
     use_visual: List[str] = field(default_factory=list)
     mesh_roots: List[str] = field(default_factory=list)
     robots: List[RobotSettings] = field(default_factory=lambda: [RobotSettings()])
     inputs: List[InputSettings] = field(default_factory=list)
+    values: Dict[str, Any] = field(default_factory=dict, compare=False)  # all parameters as they were read
 
     def uses_visual(self, body: str) -> bool:
         return any(fnmatchcase(body, pattern) for pattern in self.use_visual)
@@ -55,12 +58,15 @@ class Settings:
 def read_settings(values: Any, node: str) -> Settings:
     """Returns the settings. @param values  the private parameters of the node, as the parameter server returns them"""
     values = values if isinstance(values, dict) else {}
-    settings = Settings()
+    settings = Settings(values=values)
     settings.world_frame = _text(values, "world_frame", "").lstrip("/")
     for name in ("rate", "margin", "stale_after", "lost_after", "max_future"):
         value = values.get(name)
         if isinstance(value, (int, float)) and not isinstance(value, bool) and value > 0:
             setattr(settings, name, float(value))
+    max_pairs = values.get("max_pairs")
+    if isinstance(max_pairs, int) and max_pairs > 0:
+        settings.max_pairs = max_pairs
     settings.use_visual = [text for text in _list(values, "use_visual") if isinstance(text, str)]
     settings.mesh_roots = [text for text in _list(values, "mesh_roots") if isinstance(text, str)]
     maps = values.get("map")
@@ -90,18 +96,19 @@ def _robot(entry: Dict[str, Any]) -> RobotSettings:
 def _map(entry: Dict[str, Any], node: str) -> InputSettings:
     source, file = "map/" + _text(entry, "name", ""), _text(entry, "file", "")
     topic = "" if file else absolute(_text(entry, "topic", "octomap_binary"), node)
-    return InputSettings(source, topic, file, "octomap_msgs/Octomap")
+    return InputSettings(source, topic, file, "octomap_msgs/Octomap", "maps")
 
 
 def _cloud(entry: Dict[str, Any], node: str) -> InputSettings:
     topic = absolute(_text(entry, "topic", "cloud"), node)
-    return InputSettings("cloud/" + _text(entry, "name", ""), topic, "", "sensor_msgs/PointCloud2")
+    return InputSettings("cloud/" + _text(entry, "name", ""), topic, "", "sensor_msgs/PointCloud2", "clouds")
 
 
 def _tracker(entry: Dict[str, Any], node: str) -> InputSettings:
     poses = _text(entry, "type", "markers") == "poses"
     kind = "geometry_msgs/PoseArray" if poses else "visualization_msgs/MarkerArray"
-    return InputSettings("track/" + _text(entry, "name", ""), absolute(_text(entry, "topic", ""), node), "", kind)
+    topic = absolute(_text(entry, "topic", ""), node)
+    return InputSettings("track/" + _text(entry, "name", ""), topic, "", kind, "tracks")
 
 
 def _text(values: Dict[str, Any], name: str, default: str) -> str:

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "node/diagnostics/start_grace.h"
 #include "node/tick/tick.h"
 
 namespace hgrid {
@@ -16,12 +17,12 @@ namespace hgrid {
 /// changes if other sources become incomplete, a body becomes LOST or worse, or the list of pairs becomes truncated.
 /// One thread may use it.
 ///
+/// Does not log an incomplete world during the StartGrace.
+///
 /// It does not compare sentences, because they contain ages, which change in every tick.
 class CompletenessLog {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  /// During this time after the start, an incomplete world is not logged, because its sources may still be starting.
-  static constexpr std::chrono::seconds kGrace{1};
   /// Least time between two warnings. A cause that is shorter is not logged; a cause that lasts is logged later.
   static constexpr std::chrono::seconds kPause{1};
 
@@ -30,7 +31,7 @@ class CompletenessLog {
     std::string text;
   };
 
-  explicit CompletenessLog(Time started) : quiet_until_(started + kGrace) {}
+  explicit CompletenessLog(Time started) : quiet_until_(StartGrace(started).end()) {}
 
   /// Logs the line that next() returns. Call this for every tick.
   void log(const Tick& tick);

@@ -73,7 +73,7 @@ bool MapLoader::put(const MapParams& map, const std::function<LoadedMap()>& load
     const Refusal why = caughtRefusal();
     noteMissing(jobs_, SourceId::ofMap(map.name),
                 std::string(name(why.code())) + " map '" + map.name + "': " + why.what());
-    ledger_.refuse("maps.refused", why);
+    grace_.refuse(ledger_, "maps.refused", why);
     return false;
   }
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "node/diagnostics/ledger.h"
+#include "node/diagnostics/start_grace.h"
 #include "node/loading/pending_loads.h"
 #include "node/params/params.h"
 #include "node/sources/map_source.h"
@@ -51,6 +52,7 @@ class MapLoader {
   const MapSource& source_;
   TickJobs& jobs_;
   Ledger& ledger_;
+  const StartGrace grace_;
   PendingLoads<MapParams> files_;
   PendingLoads<ReadMap> arrived_;
   std::vector<ros::Subscriber> subscribers_;

@@ -76,7 +76,7 @@ void CloudSource::onMessage(const CloudMessage& message) {
     refused = Refusal(fault.code(), what_ + ": " + fault.what());
   }
   sink_.miss(std::string(name(refused.code())) + " " + refused.what());
-  ledger_.refuse(counter_ + "refused", refused);
+  grace_.refuse(ledger_, counter_ + "refused", refused);
 }
 
 void CloudSource::take(const CloudMessage& message) {

@@ -14,6 +14,7 @@
 
 #include "hgrid_proximity/maps/cloud_cells.h"
 #include "node/diagnostics/ledger.h"
+#include "node/diagnostics/start_grace.h"
 #include "node/params/params.h"
 #include "node/sources/loaded_map.h"
 #include "node/sources/self_shapes.h"
@@ -64,6 +65,7 @@ class CloudSource {
   NewestTick newest_;
   Sink sink_;
   Ledger& ledger_;
+  const StartGrace grace_;
 
   std::atomic<bool> stopping_{false};
   std::string frame_;  // of the newest message

@@ -95,7 +95,7 @@ void TrackSource::handle(const ReceivedTracks& received) {
   if (refused.code() != Code::ok) {
     refused = Refusal(refused.code(), what_ + " was refused: " + refused.what());
     list_.noteRefused(std::string(name(refused.code())) + " " + refused.what());
-    ledger_.refuse(counter_ + "refused", refused);
+    grace_.refuse(ledger_, counter_ + "refused", refused);
   }
   put();
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "node/diagnostics/ledger.h"
+#include "node/diagnostics/start_grace.h"
 #include "node/immediate_callbacks.h"
 #include "node/params/params.h"
 #include "node/tf/transform_lookup.h"
@@ -63,6 +64,7 @@ class TrackSource {
   std::function<std::shared_ptr<const Tick>()> newest_;
   Sink sink_;
   Ledger& ledger_;
+  const StartGrace grace_;
   TrackQueue queue_;
   TrackList list_;                   // only the thread uses it
   std::vector<std::string> frames_;  // only the thread uses it: the frames of the newest poses

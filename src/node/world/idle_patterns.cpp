@@ -14,16 +14,13 @@ bool matchesNone(const std::string& pattern, const std::vector<std::string>& nam
   return std::none_of(names.begin(), names.end(), [&](const std::string& name) { return matches(pattern, name); });
 }
 
-/// Whether the pattern is meant for maps: every name that it can match begins with "map/".
-bool isForMaps(const std::string& pattern) { return coversGlob("map/*", pattern); }
-
 /// Collects a warning for each pattern that matches no body.
 class Check {
  public:
-  explicit Check(const std::vector<std::string>& bodies) : bodies_(bodies) {}
+  Check(const Params& params, const std::vector<std::string>& bodies) : params_(params), bodies_(bodies) {}
 
   void operator()(const std::string& parameter, const std::string& pattern) {
-    if (isForMaps(pattern) || !matchesNone(pattern, bodies_)) return;
+    if (mayMatchLater(pattern) || !matchesNone(pattern, bodies_)) return;
     warnings_.push_back(parameter + ": '" + printable(pattern) + "' matches no body");
   }
   void operator()(const std::string& parameter, const std::vector<PatternValue>& values) {
@@ -32,6 +29,17 @@ class Check {
   std::vector<std::string> warnings() && { return std::move(warnings_); }
 
  private:
+  /// Whether the pattern is meant for maps only, or can match a configured map or a track of a configured tracker.
+  bool mayMatchLater(const std::string& pattern) const {
+    return coversGlob("map/*", pattern) ||
+           std::any_of(params_.maps.begin(), params_.maps.end(),
+                       [&](const MapParams& map) { return matches(pattern, joined("map", map.name)); }) ||
+           std::any_of(params_.trackers.begin(), params_.trackers.end(), [&](const TrackerParams& tracker) {
+             return canMatchTogether(pattern, joined("track", tracker.name + "/*"));
+           });
+  }
+
+  const Params& params_;
   const std::vector<std::string>& bodies_;
   std::vector<std::string> warnings_;
 };
@@ -40,7 +48,7 @@ class Check {
 
 std::vector<std::string> idlePatterns(const Params& params, const std::vector<std::string>& bodies,
                                       const std::vector<std::string>& without_collision) {
-  Check check(bodies);
+  Check check(params, bodies);
   check("~margins", params.margins);
   check("~padding", params.padding);
   check("~max_speed", params.max_speed);

@@ -10,7 +10,8 @@
 namespace hgrid {
 
 /// Returns a warning for each pattern in the parameters that matches no name, so that users notice misspelled names.
-/// Patterns for maps are not checked, because maps are added and removed at run time.
+/// Patterns that can match a track of a configured tracker, and patterns for maps, are not reported: tracks and maps
+/// come and go at run time.
 /// @param bodies             names of the bodies
 /// @param without_collision  names of the links without a body; ~accept_uncovered and ~use_visual may match them
 std::vector<std::string> idlePatterns(const Params& params, const std::vector<std::string>& bodies,

@@ -27,6 +27,29 @@ TEST(IdlePatterns, ForMapsAreNotReported) {
       << "a pattern that may match other bodies is reported";
 }
 
+TEST(IdlePatterns, ThatCanMatchATrackOfAConfiguredTrackerAreNotReported) {
+  Params params;
+  PairRule rule;
+  rule.first = rule.second = "track/*";
+  params.allowed_pairs = {rule};
+  params.margins = {{"track/people/7", 0.1}, {"track/*/legs", 0.1}, {"track/carts/*", 0.1}};
+  const std::string margins = "~margins: 'track/", allowed = "~allowed_pairs: 'track/*' matches no body";
+  EXPECT_EQ(idlePatterns(params, kBodies, kBare),
+            (Warnings{margins + "people/7' matches no body", margins + "*/legs' matches no body",
+                      margins + "carts/*' matches no body", allowed, allowed}))
+      << "no tracker is configured";
+  params.trackers.emplace_back().name = "people";
+  EXPECT_EQ(idlePatterns(params, kBodies, kBare), (Warnings{margins + "carts/*' matches no body"}));
+}
+
+TEST(IdlePatterns, ThatMatchAConfiguredMapAreNotReported) {
+  Params params;
+  params.margins = {{"ma?/hall", 0.1}};
+  EXPECT_EQ(idlePatterns(params, kBodies, kBare), (Warnings{"~margins: 'ma?/hall' matches no body"}));
+  params.maps.emplace_back().name = "hall";
+  EXPECT_EQ(idlePatterns(params, kBodies, kBare), Warnings());
+}
+
 TEST(IdlePatterns, OfWaiversAndVisualGeometryMayMeanLinksWithoutBodies) {
   Params params;
   params.accept_uncovered = {{"arm/flange", "thin"}, {"arm/nothing", "thin"}};

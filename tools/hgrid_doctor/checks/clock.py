@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from hgrid_doctor.facts import Facts
 from hgrid_doctor.finding import ERROR, EVERYTHING, WARN, Findings, listing
+from hgrid_doctor.fixes import restart
 from hgrid_doctor.frames import middle
 
 OTHER_CLOCK = 1e6  # [s] if two clocks differ by more, one is a wall clock and the other a simulated clock
@@ -25,8 +26,8 @@ def check_simulated(facts: Facts, findings: Findings):
             "no_clock",
             ERROR,
             "/use_sim_time is true, but nobody publishes /clock: there is no time, and nothing is placed.",
-            "Start the simulation or `rosbag play --clock`; on a real robot `rosparam set use_sim_time false` and "
-            "start all nodes again.",
+            "Start the simulation, or play the bag with `rosbag play --clock BAG`; on a real robot "
+            "`rosparam set /use_sim_time false` and start all nodes again.",
             [EVERYTHING],
         )
     elif not facts.clock:
@@ -59,7 +60,7 @@ def check_wall(facts: Facts, findings: Findings):
         ERROR if foreign else WARN,
         f"{listing(facts.alive_publishers('/clock'))} publishes /clock, but /use_sim_time is not set"
         + (": transforms have simulated stamps, while nodes that start now use the wall clock." if foreign else "."),
-        "Run `rosparam set use_sim_time true` and start all nodes again.",
+        "Run `rosparam set /use_sim_time true` and start all nodes again.",
         [EVERYTHING] if foreign else [],
     )
 
@@ -77,6 +78,6 @@ def check_clock_of_node(facts: Facts, findings: Findings):
         "node_on_other_clock",
         ERROR,
         f"{facts.node} uses {kind}: its newest tick is of {made:.1f} s, and it is {now:.1f} s now.",
-        f"Start the node again, because it reads /use_sim_time only when it starts: `rosnode kill {facts.host}`.",
+        f"Start the node again, because it reads /use_sim_time only when it starts: {restart(facts)}.",
         [EVERYTHING],
     )

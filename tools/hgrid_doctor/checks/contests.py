@@ -8,7 +8,7 @@ from typing import List
 
 from hgrid_doctor.facts import Facts, TfStream
 from hgrid_doctor.finding import ERROR, WARN, Findings, counted, listing
-from hgrid_doctor.frames import Tree, needed_chains, robots_placed_by
+from hgrid_doctor.frames import Tree, joint_state_topics, needed_chains, robots_placed_by
 
 SAME_TIME = 0.02  # [s] two poses are compared if their stamps differ by at most this time
 SAME_DISTANCE, SAME_ANGLE = 0.01, 0.01  # [m], [rad] the limits that the node uses
@@ -30,11 +30,11 @@ def check(facts: Facts, findings: Findings):
             severity = ERROR if chains & set(frames) else WARN
             what = contradiction(streams, publishers, frames)
             robots = robots_placed_by(facts, tree, set(frames))
-            findings.add("contested_frame", severity, what, remedy(publishers), robots)
+            findings.add("contested_frame", severity, what, remedy(facts, publishers), robots)
         else:
             frames_text = f"{counted(len(frames), 'frame')} ({listing(frames)})"
             what = f"{frames_text} come from {who(streams)}; their poses agree now."
-            findings.add("doubled_frame", WARN, what, remedy(publishers))
+            findings.add("doubled_frame", WARN, what, remedy(facts, publishers))
 
 
 def who(streams: List[TfStream]) -> str:
@@ -50,10 +50,18 @@ def contradiction(streams: List[TfStream], publishers, frames) -> str:
     return f"{noun} from {who(streams)} {where}: only one publisher may place a frame."
 
 
-def remedy(publishers) -> str:
+def remedy(facts: Facts, publishers) -> str:
     if len(publishers) == 1:
         return f"Let {publishers[0]} send each frame on one topic with one parent."
-    return f"Stop one of them, for example `rosnode kill {publishers[1]}`, or give its frames other names."
+    extra = min(reversed(publishers), key=lambda publisher: weight(facts, publisher))
+    return f"Stop one of them, for example `rosnode kill {extra}`, or give its frames other names."
+
+
+def weight(facts: Facts, publisher: str):
+    """Returns a value that is larger for publishers that are more likely to be right: robot_state_publishers, then
+    those with more frames."""
+    frames = sum(stream.publisher == publisher for stream in facts.streams)
+    return bool(joint_state_topics(facts, publisher)), frames
 
 
 def said_by_node(facts: Facts, child: str) -> bool:

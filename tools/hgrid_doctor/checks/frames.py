@@ -14,6 +14,13 @@ from hgrid_doctor.checks.joint_states import (
 )
 from hgrid_doctor.facts import LOST, UNPLACED, Facts, RobotFacts
 from hgrid_doctor.finding import ERROR, EVERYTHING, Findings, counted, listing
+from hgrid_doctor.fixes import (
+    publish_frame,
+    robot_entries,
+    sentence,
+    state_publisher_command,
+    with_params,
+)
 from hgrid_doctor.frames import Tree, frame_of_group, needed_frames
 
 
@@ -100,7 +107,7 @@ def check_absent(
             ERROR,
             f"{what}: they are on /tf with the prefix '{prefix}', and tf_prefix of the robot is "
             f"'{robot.settings.tf_prefix}'.",
-            f"Set tf_prefix: '{prefix}' for '{name}' in ~robots and start the node again.",
+            sentence(with_params(facts, {"robots": robot_entries(facts.robots, name, {"tf_prefix": prefix})})) + ".",
             explained,
         )
         return
@@ -115,29 +122,19 @@ def check_absent(
             "state_publisher_gone",
             ERROR,
             f"{what}: {gone} is registered to publish them, but does not answer ({facts.nodes[gone].error}).",
-            "Start it again; `rosnode cleanup` removes the registrations of dead nodes.",
+            f"Start it again: {state_publisher_command(facts, robot)}.",
             explained,
         )
     else:
         others = facts.alive_publishers("/tf")
         there = f"/tf comes from {listing(others)} only" if others else "nobody publishes /tf"
-        prefix = f" _tf_prefix:={robot.settings.tf_prefix}" if robot.settings.tf_prefix else ""
         findings.add(
             "no_state_publisher",
             ERROR,
             f"{what}: no robot_state_publisher runs for it, and {there}.",
-            f"Start one: `rosrun robot_state_publisher robot_state_publisher{place(robot)}{prefix}`.",
+            f"Start one: {state_publisher_command(facts, robot)}.",
             explained,
         )
-
-
-def place(robot: RobotFacts) -> str:
-    """Returns arguments with which a robot_state_publisher finds the description of the robot."""
-    key = robot.key or robot.settings.description
-    namespace, _, name = key.rpartition("/")
-    if name != "robot_description":
-        return f" robot_description:={key}"
-    return f" __ns:={namespace}" if namespace else ""
 
 
 def other_prefix(facts: Facts, tree: Tree, robot: RobotFacts, absent: Dict[str, str]):
@@ -168,8 +165,8 @@ def check_connected(facts: Facts, tree: Tree, apart: Dict[str, Set[str]], findin
     who = f"robot{'s' if len(names) > 1 else ''} {listing(names)}"
     explained = sources_below(facts, tree, set(apart)) | set(names)
     gone = facts.gone_publishers("/tf")
-    set_frame = f"`rosparam set {facts.node}/world_frame {roots[0]}` and start the node again"
-    publish = f"`rosrun tf2_ros static_transform_publisher 0 0 0 0 0 0 {world} {roots[0]}`"
+    set_frame = with_params(facts, {"world_frame": roots[0]})
+    publish = f"{publish_frame(world, roots[0])} (with the true pose)"
     if gone:
         findings.add(
             "tf_publisher_gone",
@@ -177,7 +174,7 @@ def check_connected(facts: Facts, tree: Tree, apart: Dict[str, Set[str]], findin
             f"Nothing connects the world frame '{world}' with {who}, below {listing(roots)}: {listing(gone)} is "
             "registered"
             " for /tf, but does not answer.",
-            "Start it again; `rosnode cleanup` removes the registrations of dead nodes.",
+            "Start it again.",
             explained,
         )
     elif was_connected(facts, names):
@@ -194,7 +191,7 @@ def check_connected(facts: Facts, tree: Tree, apart: Dict[str, Set[str]], findin
             ERROR,
             f"The world frame '{world}' is unknown to tf: nobody publishes it now, and {who} hangs below "
             f"{listing(roots)}.",
-            f"Choose a frame that is there: {set_frame}; or publish where the robot is: {publish}.",
+            f"Publish where the robot is: {publish}. Or choose a frame that is there: {set_frame}.",
             explained,
         )
     else:
@@ -204,6 +201,7 @@ def check_connected(facts: Facts, tree: Tree, apart: Dict[str, Set[str]], findin
             f"tf is in parts that nothing connects: the world frame '{world}' is below '{tree.root(world)}', {who} "
             "below"
             f" {listing(roots)}.",
-            f"Start a node that publishes where the robot is (localization, odometry), or run {publish}, or {set_frame}.",
+            f"Publish where the robot is: start the node that does (localization, odometry), or {publish}. Or choose "
+            f"another frame: {set_frame}.",
             explained,
         )

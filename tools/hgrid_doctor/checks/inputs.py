@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from hgrid_doctor.facts import Facts
 from hgrid_doctor.finding import ERROR, WARN, Findings, listing
+from hgrid_doctor.fixes import publish_frame, with_params
 from hgrid_doctor.frames import Tree
 from hgrid_doctor.settings import InputSettings
 
@@ -24,12 +25,15 @@ def check(facts: Facts, findings: Findings):
 def check_file(facts: Facts, each: InputSettings, findings: Findings):
     error = facts.map_file_errors.get(each.source)
     if error:
+        folder = facts.settings.map_folder
+        maps = facts.settings.values.get("map")
+        set_folder = with_params(facts, {"map": {**(maps if isinstance(maps, dict) else {}), "folder": "FOLDER"}})
         findings.add(
             "no_map_file",
             ERROR,
             f"The file '{each.file}' of {each.source} cannot be read: {error}.",
-            f"Put it there, or set the folder and start the node again: `rosparam set {facts.node}/map/folder "
-            "<folder>`.",
+            (f"Put it there: `cp {each.file} {folder}`. Or name" if folder else "Name")
+            + f" the folder in which it is: {set_folder}.",
             [each.source],
         )
 
@@ -46,7 +50,7 @@ def check_topic(facts: Facts, tree: Tree, each: InputSettings, findings: Finding
             ERROR,
             f"{topic} of {each.source} has the wrong type: {listing(publishers)} sends {sorted(types)[0]}, and "
             f"{each.type} is needed.",
-            f"Name a topic of that type in the parameters: `rostopic find {each.type}`.",
+            f"Name a topic of that type in ~{each.parameter}: `rostopic find {each.type}` lists them.",
             [each.source],
         )
     elif not facts.topic(topic).total():
@@ -61,14 +65,22 @@ def check_absent(facts: Facts, each: InputSettings, findings: Findings):
         topic for topic, kind in facts.graph.types.items() if kind == each.type and facts.alive_publishers(topic)
     )
     what = f"{listing(gone)} is registered, but does not answer" if gone else "nobody publishes it"
-    fix = (
-        f"Name one of the topics of that type in ~{each.source.split('/')[0]}s: {listing(others)}."
-        if others
-        else f"Start what publishes it, or correct the topic in ~{each.source.split('/')[0]}s."
-    )
+    if others:
+        other = use_topic(facts, each, others[0])
+        fix = f"Start what publishes it, or use a topic of that type that is there: {other}."
+    else:
+        fix = f"Start what publishes it, or correct the topic in ~{each.parameter}."
     findings.add(
         "no_input_publisher", ERROR, f"Nothing comes for {each.source} on {each.topic}: {what}.", fix, [each.source]
     )
+
+
+def use_topic(facts: Facts, each: InputSettings, topic: str) -> str:
+    """Returns how to let the node read an input from another topic."""
+    entries = facts.settings.values[each.parameter]
+    name = each.source.partition("/")[2]
+    changed = [{**entry, "topic": topic} if entry.get("name") == name else entry for entry in entries]
+    return with_params(facts, {each.parameter: changed})
 
 
 def check_silent(facts: Facts, each: InputSettings, findings: Findings):
@@ -95,7 +107,7 @@ def check_frame(facts: Facts, tree: Tree, each: InputSettings, findings: Finding
         "wrong_input_frame",
         ERROR,
         f"The messages of {each.source} on {each.topic} are in frame '{frame}', which {what}.",
-        "Correct frame_id at the publisher, or say where it is: `rosrun tf2_ros static_transform_publisher 0 0 0 0 0 "
-        f"0 {world} {frame}`.",
+        "Correct frame_id at the publisher, or publish where the frame is: "
+        f"{publish_frame(world, tree.root(frame))} (with the true pose).",
         [each.source],
     )

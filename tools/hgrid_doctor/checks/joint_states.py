@@ -8,6 +8,7 @@ from typing import Dict, List, Set
 
 from hgrid_doctor.facts import Facts, RobotFacts
 from hgrid_doctor.finding import ERROR, Findings, counted, listing
+from hgrid_doctor.fixes import play_joints, state_publisher_command
 from hgrid_doctor.frames import joint_state_topics
 
 
@@ -49,6 +50,8 @@ def state_publishers(facts: Facts, robot: RobotFacts) -> Set[str]:
 def check_joint_states(facts: Facts, absent: Absent, publisher: str, findings: Findings, waiting: List[Waiting]):
     robot, what = absent.robot, absent.what
     topic = sorted(joint_state_topics(facts, publisher))[0]
+    start = state_publisher_command(facts, robot)
+    again = f"Start it again now that {robot.key} is set: `rosnode kill {publisher}`, then {start}"
     sources = facts.alive_publishers(topic)
     wanted = {joint for link in absent.frames.values() for joint in robot.description.moving_joints_above(link)}
     missing = sorted(wanted - facts.joints.get(topic, set()))
@@ -57,7 +60,7 @@ def check_joint_states(facts: Facts, absent: Absent, publisher: str, findings: F
             "state_publisher_of_other_robot",
             ERROR,
             f"{what}, though {publisher} runs: it has read another description.",
-            f"Start it again after {robot.key} was set: `rosnode kill {publisher}`.",
+            f"{again}.",
             absent.explains,
         )
     elif not sources:
@@ -86,7 +89,7 @@ def check_joint_states(facts: Facts, absent: Absent, publisher: str, findings: F
             ERROR,
             f"{what}, though {publisher} runs and has joint states: it has read another description, or refuses their "
             "stamps.",
-            f"Start it again after {robot.key} was set: `rosnode kill {publisher}`.",
+            f"{again}.",
             absent.explains,
         )
 
@@ -95,6 +98,11 @@ def add_no_joint_states(waiting: List[Waiting], findings: Findings):
     """Adds one finding for all robots, because the same driver may be missing for all of them."""
     first = waiting[0]
     topics = sorted({each.topic for each in waiting})
+    joints = set()
+    for each in waiting:
+        if each.topic == first.topic:
+            for link in each.absent.frames.values():
+                joints |= each.absent.robot.description.moving_joints_above(link)
     if len(waiting) == 1:
         what = f"{first.absent.what}: {first.publisher} waits for joint states on {first.topic}"
     else:
@@ -106,7 +114,6 @@ def add_no_joint_states(waiting: List[Waiting], findings: Findings):
         "no_joint_states",
         ERROR,
         f"{what}, and nobody publishes them.",
-        "Start the robot's driver, or for a trial without it"
-        f" `rosrun joint_state_publisher joint_state_publisher joint_states:={first.topic}`.",
+        f"Start the robot's driver. For a trial without it: {play_joints(first.topic, joints)}.",
         {source for each in waiting for source in each.absent.explains},
     )

@@ -5,6 +5,9 @@ from __future__ import annotations
 
 from hgrid_doctor.facts import Facts
 from hgrid_doctor.finding import ERROR, WARN, Findings, listing
+from hgrid_doctor.fixes import master_command
+
+OWN_ADDRESS = "`unset ROS_HOSTNAME; export ROS_IP={}`"  # roslaunch and nodes prefer ROS_HOSTNAME to ROS_IP
 
 
 def check(facts: Facts, findings: Findings):
@@ -22,7 +25,8 @@ def check_master(facts: Facts, findings: Findings):
         "no_master",
         ERROR,
         f"The ROS master at {uri} ({origin}) cannot be reached: {facts.graph.error}.",
-        "Start it with `roscore`, or name the right one: `export ROS_MASTER_URI=http://<host>:11311`.",
+        f"Start it: {master_command(uri)}; if it hangs, end it before (`pgrep -af rosmaster` shows its process). Or "
+        "name the right one: `export ROS_MASTER_URI=http://HOST:11311`.",
     )
 
 
@@ -39,7 +43,9 @@ def check_own_name(facts: Facts, findings: Findings):
         WARN,
         f"{origin} is '{environment.own_name}': {environment.own_name_error}. Nodes started here cannot be reached by "
         "it.",
-        "Set an address of this computer that the others can reach: `export ROS_IP=<address>` (see `ip -br address`).",
+        "Announce an address of this computer that the others can reach, in each shell before nodes start: "
+        + OWN_ADDRESS.format(environment.address_towards_master or "ADDRESS")
+        + ".",
     )
 
 
@@ -54,6 +60,7 @@ def check_hosts(facts: Facts, findings: Findings):
             "unknown_host",
             ERROR,
             f"The host '{host}' of {listing(sorted(nodes))} cannot be resolved here, so nothing of it arrives.",
-            f"On that computer `export ROS_IP=<address>` before its nodes start, or add '<address> {host}' to "
-            "/etc/hosts.",
+            f"Announce an address of that computer that this one can reach, and start its nodes again: there "
+            f"{OWN_ADDRESS.format('ADDRESS')}. Or name its address here: "
+            f"`echo ADDRESS {host} | sudo tee -a /etc/hosts`.",
         )

@@ -5,21 +5,14 @@ from __future__ import annotations
 
 from hgrid_doctor.facts import Facts
 from hgrid_doctor.finding import ERROR, Findings, listing
-
-RUN_IN_TERMINAL = "`rosrun hgrid_proximity proximity_node __name:={name}`"
-
-
-def start_command(node: str) -> str:
-    namespace, _, name = node.rpartition("/")
-    command = RUN_IN_TERMINAL.format(name=name)
-    return command if not namespace else command[:-1] + f" __ns:={namespace}`"
+from hgrid_doctor.fixes import log_command, restart, start_command
 
 
 def check(facts: Facts, findings: Findings):
     node, host = facts.node, facts.host
     start = start_command(node)
     if not host:
-        running = f" There is {listing(facts.others)}; ask it with --node." if facts.others else ""
+        running = f" There is {listing(facts.others)}: {ask_other(facts)}." if facts.others else ""
         findings.add(
             "node_not_running",
             ERROR,
@@ -36,7 +29,8 @@ def check(facts: Facts, findings: Findings):
             ERROR,
             f"The node {host} is registered, but does not answer at {known.uri or 'any address'} ({known.error}): it "
             "died or hangs.",
-            f"Start it again, for example {start}; `rosnode cleanup` removes the registrations of dead nodes.",
+            "If it hangs, end it (`pgrep -af proximity_node` shows its process). Then start it again, for example "
+            f"{start}.",
         )
         return
     if known and facts.pid_after is not None and known.pid is not None and facts.pid_after != known.pid:
@@ -46,9 +40,14 @@ def check(facts: Facts, findings: Findings):
             f"{host} was process {known.pid} and is now process {facts.pid_after}: it starts again and again, or two "
             "nodes"
             " fight for the name.",
-            "Read the node's log (`roscd log`); look for a second one on all computers: `pgrep -af proximity_node`.",
+            f"Read what it says: {log_command(facts)}; look for a second one on all computers: "
+            "`pgrep -af proximity_node`.",
         )
     check_status(facts, findings)
+
+
+def ask_other(facts: Facts) -> str:
+    return f"`rosrun hgrid_proximity doctor --node {facts.others[0]}`"
 
 
 def check_status(facts: Facts, findings: Findings):
@@ -61,14 +60,15 @@ def check_status(facts: Facts, findings: Findings):
             ERROR,
             f"The node {node} runs, but publishes no {topic}: it is another program, or it has not started completely.",
             f"Look at `rosnode info {node}`"
-            + (f"; or ask {listing(facts.others)} with --node." if facts.others else "."),
+            + (f"; or ask the other one: {ask_other(facts)}." if facts.others else "."),
         )
     elif "md5sum" in facts.status_error or "no messages of" in facts.status_error:
         findings.add(
             "other_version",
             ERROR,
             f"{topic} cannot be read: {facts.status_error}. The node and this shell use different versions.",
-            "Source the workspace that the node was started from, or build both anew and start the node again.",
+            "Source the workspace from which the node was started (`source ~/my_ws/devel/setup.bash`), or build both "
+            f"anew and start the node again: {restart(facts)}.",
         )
     else:
         why = f" ({facts.status_error})" if facts.status_error else ""
@@ -76,6 +76,5 @@ def check_status(facts: Facts, findings: Findings):
             "status_silent",
             ERROR,
             f"{topic} was silent for {facts.listened:.1f} s{why}, though {facts.host} answers: its ticks hang or fail.",
-            f"Read the node's log (`roscd log`), then start it again: `rosnode kill {facts.host}` and "
-            f"{start_command(node)}.",
+            f"Read what it says: {log_command(facts)}; then start it again: {restart(facts)}.",
         )

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from hgrid_doctor.facts import Facts, RobotFacts
 from hgrid_doctor.finding import ERROR, WARN, Findings, counted, listing
+from hgrid_doctor.fixes import load_file, reload_command
+from hgrid_doctor.settings import absolute
 
 DEFAULT = "robot_description_semantic"
 
@@ -22,8 +24,7 @@ def check_one(facts: Facts, robot: RobotFacts, findings: Findings):
                 "no_srdf",
                 WARN,
                 f"The SRDF of robot '{settings.name}' is missing: there is no parameter '{settings.semantic}'.",
-                f"Load it, then `rosservice call {facts.node}/reload_robot {settings.name}`; or leave out semantic in "
-                "~robots.",
+                f"{load(facts, robot, absolute(settings.semantic, facts.node))}. Or leave out semantic in ~robots.",
             )
         return
     if semantic.flaw:
@@ -31,7 +32,7 @@ def check_one(facts: Facts, robot: RobotFacts, findings: Findings):
             "bad_srdf",
             ERROR,
             f"The parameter {robot.semantic_key} holds no SRDF that can be read: {semantic.detail}.",
-            f"Correct it, then `rosservice call {facts.node}/reload_robot {settings.name}`.",
+            f"Correct the file. {load(facts, robot, robot.semantic_key)}.",
             [settings.name],
         )
         return
@@ -39,15 +40,17 @@ def check_one(facts: Facts, robot: RobotFacts, findings: Findings):
         check_links(facts, robot, findings)
 
 
+def load(facts: Facts, robot: RobotFacts, key: str) -> str:
+    commands = f"{load_file(key, 'my_robot.srdf')}, then {reload_command(facts, robot)}"
+    return f"Load the SRDF of this robot: {commands}. Change the launch file as well"
+
+
 def check_links(facts: Facts, robot: RobotFacts, findings: Findings):
     semantic, description = robot.semantic, robot.description
     unknown = sorted(semantic.links - set(description.links))
     foreign = len(unknown) * 2 > len(semantic.links)
     other_name = semantic.name != description.name
-    fix = (
-        f"Load the SRDF of '{description.name}' to {robot.semantic_key}, then"
-        f" `rosservice call {facts.node}/reload_robot {robot.settings.name}`."
-    )
+    fix = f"{load(facts, robot, robot.semantic_key)}."
     if foreign or (other_name and unknown):
         findings.add(
             "srdf_of_other_robot",
@@ -64,7 +67,7 @@ def check_links(facts: Facts, robot: RobotFacts, findings: Findings):
             f"The SRDF in {robot.semantic_key} names {counted(len(unknown), 'link')} that '{description.name}' does "
             "not have:"
             f" {listing(unknown)}.",
-            "Correct the names, or write the SRDF anew with the MoveIt setup assistant.",
+            f"Correct the names, or write the SRDF anew with the MoveIt setup assistant. {fix}",
         )
     elif other_name:
         findings.add(

@@ -9,6 +9,7 @@ from typing import List
 from hgrid_doctor.checks.clock import OTHER_CLOCK
 from hgrid_doctor.facts import Facts, TfStream
 from hgrid_doctor.finding import ERROR, WARN, Findings
+from hgrid_doctor.fixes import COMPARE_CLOCKS
 from hgrid_doctor.frames import Tree, middle, needed_chains, robots_placed_by
 
 EARLY = 0.2  # [s] some publishers deliberately use stamps in the near future, amcl by 0.1 s
@@ -72,8 +73,7 @@ def check_offset(facts: Facts, publisher: str, streams: List[TfStream], robots, 
         ERROR if refused or lost else WARN,
         f"The stamps of {publisher} on /tf are constantly {abs(offset):.2f} s in the {'future' if early else 'past'}"
         f" ({min(offsets):+.2f} .. {max(offsets):+.2f} s){effect}.",
-        "If it runs on another computer, set the clocks there and here by one server (`chronyc tracking`); if not, "
-        "see what"
-        f" it stamps with (`rosnode info {publisher}`).",
+        f"If it runs on another computer, set the clocks there and here by one server: {COMPARE_CLOCKS}. If not, see "
+        f"what it is and what it stamps with: `rosnode info {publisher}`.",
         robots,
     )

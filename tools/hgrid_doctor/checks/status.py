@@ -8,23 +8,23 @@ from typing import Dict
 
 from hgrid_doctor.facts import STALE, STATES, Facts
 from hgrid_doctor.finding import ERROR, EVERYTHING, WARN, Findings, counted
+from hgrid_doctor.fixes import COMPARE_CLOCKS, log_command, publish_frame, reload_command, with_params
 
 LATE_SHARE = 0.1  # fraction of the ticks that may be late
 
 POSES_FRAME = "~poses/"  # beginning of the frames of obstacles that messages on ~poses move
 FRAME = re.compile(r"frame '([^']+)'")  # in a reason: the frame that has no pose, or whose pose is old
+MOST_PAIRS = 10_000_000  # largest value of ~max_pairs
 
 HINTS = {  # fix by the first word of the reason
-    "UNPLACED": "See whether tf connects its frame with the world: `rosrun tf tf_echo {world} {frame}`.",
-    "UNCOVERED": "Correct the shape, or waive it with ~accept_uncovered and a reason.",
     "LOST": "See why its publisher stopped: `rostopic hz {topic}`, `rosnode list`.",
     "FROZEN": "Let the clock run on, or wait for the first data after the jump of the clock.",
     "INVALID": "See what the publisher of its frame sends: `rostopic echo /tf`.",
     "REQUIRED": "Add what ~required names, or do not require it.",
     "REFUSED": "Correct the newest description, map or message. The node reads a description again by itself; send a map or a message again.",
-    "PARSE": "Correct the description, then `rosservice call {node}/reload_robot {source}`.",
 }
 UNSENT_HINT = "Send its pose to {topic}. See what arrives there: `rostopic echo {topic}`."  # UNPLACED, moved by ~poses
+UNKNOWN_HINT = "Publish the frames of its bodies: `rostopic echo -n 1 {node}/status/bodies` names them."  # UNPLACED
 OTHER_HINT = "Correct the cause; the status of the node says more: `rostopic echo -n 1 {node}/status`."
 
 
@@ -46,21 +46,43 @@ def check_sources(facts: Facts, findings: Findings):
             if findings.explain(source.name, ERROR):
                 continue
             reason = source.reason or "; ".join(facts.status.not_ready) or "it says no reason"
-            code = reason.split(" ", 1)[0]
-            named = FRAME.search(reason)
-            frame = named.group(1) if named else "<frame>"
-            is_sent = frame.startswith(POSES_FRAME)
-            hint = UNSENT_HINT if is_sent and code == "UNPLACED" else HINTS.get(code, OTHER_HINT)
-            topic = f"{facts.node}/poses" if is_sent else "/tf"
-            fix = hint.format(world=facts.world_frame(), node=facts.node, source=source.name, topic=topic, frame=frame)
+            fix = fix_of(facts, source.name, reason)
             findings.add("source_incomplete", ERROR, f"{source.name} is not complete: {reason}.", fix, [source.name])
         elif source.state == STALE and not findings.explain(source.name):
             findings.add(
                 "source_stale",
                 WARN,
                 f"Poses of {source.name} are {STATES[source.state]}: the oldest is {source.age:.2f} s old.",
-                "See which publisher is slow: `rosrun tf tf_monitor`; a slow one may need a larger ~stale_after.",
+                "See which publisher is slow: `rosrun hgrid_proximity doctor -v`; a slow one may need a larger "
+                "~stale_after.",
             )
+
+
+def fix_of(facts: Facts, source: str, reason: str) -> str:
+    """Returns the fix for a source that is not complete. @param reason  begins with a code"""
+    code = reason.split(" ", 1)[0].rstrip(":")
+    named = FRAME.search(reason)
+    frame = named.group(1) if named else ""
+    is_sent = frame.startswith(POSES_FRAME)
+    robot = next((each for each in facts.robots if each.settings.name == source), None)
+    hint = HINTS.get(code, OTHER_HINT)
+    if code == "UNCOVERED":
+        waivers = facts.settings.values.get("accept_uncovered")
+        waivers = [*(waivers if isinstance(waivers, list) else []), {"pattern": body_of(reason), "reason": "REASON"}]
+        return f"Correct the shape. If it need not be known, {with_params(facts, {'accept_uncovered': waivers})}."
+    if code == "PARSE" and robot is not None:
+        return f"Correct the description, then {reload_command(facts, robot)}."
+    if code == "UNPLACED":
+        if frame and not is_sent and facts.world_frame():
+            publish = publish_frame(facts.world_frame(), frame)
+            return f"Start what publishes the frame. If it stands still: {publish} (with the true pose)."
+        hint = UNSENT_HINT if is_sent else UNKNOWN_HINT
+    return hint.format(node=facts.node, topic=f"{facts.node}/poses" if is_sent else "/tf")
+
+
+def body_of(reason: str) -> str:
+    """Returns the name after the code, for example "robot/hand" of "UNCOVERED robot/hand: PARSE: ..."."""
+    return reason.partition(" ")[2].partition(": ")[0]
 
 
 def check_contests(facts: Facts, findings: Findings):
@@ -70,7 +92,7 @@ def check_contests(facts: Facts, findings: Findings):
             "contested_frame",
             ERROR,
             facts.status.contested_frames[0] + (f" (and {more} more)." if more else "."),
-            "Stop one of them with `rosnode kill`, or give its frames other names.",
+            "Stop one of them: `rosnode kill NAME`, or give its frames other names.",
         )
 
 
@@ -88,7 +110,7 @@ def check_clocks(facts: Facts, findings: Findings):
         WARN,
         f"All stamps of a publisher of /tf are early or late: {', '.join(texts[:3])}"
         + (f", and {counted(len(texts) - 3, 'publisher')} more." if len(texts) > 3 else "."),
-        "Compare the clocks of the computers (`chronyc tracking`, `ntpq -p`). A localization node may stamp ahead on "
+        f"Set the clocks of the computers by one server: {COMPARE_CLOCKS}. A localization node may stamp ahead on "
         "purpose; a slow source may need a larger ~late_after.",
     )
 
@@ -100,7 +122,7 @@ def check_pairs(facts: Facts, findings: Findings):
             "pairs_truncated",
             ERROR,
             f"~pairs does not list all pairs: {'; '.join(world.reasons) or 'truncated'}.",
-            "Lower ~margin or raise ~max_pairs, then start the node again.",
+            f"Lower ~margin, or {with_params(facts, {'max_pairs': min(MOST_PAIRS, 10 * facts.settings.max_pairs)})}.",
         )
     own = facts.status.self_pairs[0] if len(facts.status.self_pairs) == 1 else None
     if len(facts.status.sources) == 1 and own and own.pairs and own.pairs == own.rigid + own.adjacent + own.srdf:
@@ -146,7 +168,7 @@ def check_counters(facts: Facts, findings: Findings):
             "work_fails",
             ERROR,
             f"Work of the node fails: {amounts(failed)} in {facts.listened:.1f} s.",
-            "Read the node's log (`roscd log`), and report it as a fault of this package.",
+            f"Read what it says, and report it as a fault of this package: {log_command(facts)}.",
         )
     refused = {name: by for name, by in grown.items() if ".refused." in name or name == "tf.dropped.LIMIT"}
     refused = {name: by for name, by in refused.items() if not is_explained(name, findings)}
@@ -155,7 +177,7 @@ def check_counters(facts: Facts, findings: Findings):
             "input_refused",
             WARN,
             f"The node refuses messages or transforms: {amounts(refused)} in {facts.listened:.1f} s.",
-            "Read its log, which says each cause once a second: `rosconsole echo` or `rostopic echo /rosout`.",
+            "It says each cause once a second: `rostopic echo /rosout/msg`.",
         )
 
 
@@ -183,19 +205,20 @@ def check_ticks(facts: Facts, findings: Findings):
     timing = next((each for each in last.timings if each.name == "tick"), None)
     if ticks <= 0:
         return
+    lower = f"lower ~rate: {with_params(facts, {'rate': facts.settings.rate / 2})}"
     if late > max(1.0, LATE_SHARE * ticks):
         findings.add(
             "ticks_late",
             WARN,
             f"{late} of {ticks} ticks were late: this computer is too busy, or ~rate ({facts.settings.rate:g} Hz) is "
             "too high.",
-            "See what uses the processors (`top`), or lower ~rate. With many thousands of shapes, set ~threads to more than "
-            "1.",
+            f"See what uses the processors (`top`), or {lower}. With many thousands of shapes, set ~threads to more "
+            "than 1.",
         )
     elif timing is not None and timing.median > period:
         findings.add(
             "ticks_slow",
             WARN,
             f"A tick takes {timing.median * 1e3:.1f} ms, longer than its period of {period * 1e3:.1f} ms.",
-            f"Lower ~rate, or look where the time goes: `rostopic echo -n 1 {facts.node}/status/timings`.",
+            f"See where the time goes: `rostopic echo -n 1 {facts.node}/status/timings`, or {lower}.",
         )

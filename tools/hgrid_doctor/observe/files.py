@@ -5,10 +5,12 @@ from __future__ import annotations
 
 import os
 from functools import lru_cache
-from typing import List
+from typing import List, Optional
 from urllib.parse import unquote
 
 import rospkg
+
+from hgrid_doctor.facts import MeshError, MeshFlaw
 
 
 @lru_cache(maxsize=None)
@@ -20,23 +22,29 @@ def package_folder(package: str) -> str:
         return ""
 
 
-def mesh_error(uri: str, roots: List[str]) -> str:
-    """Returns why a mesh cannot be read; empty if it can be read.
+def mesh_error(uri: str, roots: List[str]) -> Optional[MeshError]:
+    """Returns why a mesh cannot be read; None if it can be read.
 
     @param roots  folders in which the files of file:// URIs may be
     """
     if uri.startswith("package://"):
         package, _, path = uri[len("package://") :].partition("/")
         folder = package_folder(package)
-        return file_error(os.path.join(folder, path)) if folder else f"there is no package '{package}'"
+        if not folder:
+            return MeshError(MeshFlaw.NO_PACKAGE, f"there is no package '{package}'")
+        return unreadable(file_error(os.path.join(folder, path)))
     if uri.startswith("file:///"):
         path = unquote(uri[len("file://") :])
         real = os.path.realpath(path)
         allowed = [*roots, *os.environ.get("ROS_PACKAGE_PATH", "").split(":")]
         if not any(root and real.startswith(os.path.realpath(root).rstrip("/") + "/") for root in allowed):
-            return "it lies outside the packages and ~mesh_roots"
-        return file_error(path)
-    return "only package:// and file:/// are read"
+            return MeshError(MeshFlaw.OUTSIDE, "it lies outside the packages and ~mesh_roots")
+        return unreadable(file_error(path))
+    return unreadable("only package:// and file:/// are read")
+
+
+def unreadable(text: str) -> Optional[MeshError]:
+    return MeshError(MeshFlaw.UNREADABLE, text) if text else None
 
 
 def file_error(path: str) -> str:

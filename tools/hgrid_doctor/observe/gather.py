@@ -65,6 +65,7 @@ def read_parameters(facts: Facts, master: Api, timeout: float):
     values = call(lambda: optional(master, "getParam", facts.node), timeout).value
     facts.settings = read_settings(values, facts.node)
     names = call(lambda: master("getParamNames"), timeout).value or []
+    facts.parameters = set(names)
     for settings in facts.settings.robots:
         robot = RobotFacts(settings)
         robot.key, text = find_parameter(facts.node, settings.description, master, timeout)
@@ -169,7 +170,7 @@ def read_files(facts: Facts, timeout: float):
                 uris.update(link.visual_meshes)
         roots = facts.settings.mesh_roots
         read = call(lambda uris=uris, roots=roots: {uri: mesh_error(uri, roots) for uri in sorted(uris)}, timeout)
-        robot.mesh_errors = {uri: error for uri, error in (read.value or {}).items() if error}
+        robot.mesh_errors = {uri: error for uri, error in (read.value or {}).items() if error is not None}
     folder = facts.settings.map_folder
     files = {
         each.source: lambda file=each.file: file_error(f"{folder}/{file}") if folder else "~map/folder is not set"

@@ -59,6 +59,7 @@ def read_environment(timeout: float) -> Environment:
     own_name = environment.ros_hostname or environment.ros_ip or socket.gethostname()
     environment.own_name = own_name
     environment.own_name_error = call(lambda: _check_own(own_name), timeout).error
+    environment.address_towards_master = call(lambda: _address_towards(environment.master_uri), timeout).value or ""
     return environment
 
 
@@ -76,6 +77,13 @@ def _check_own(name):
         except OSError:
             continue
     raise OSError(f"it is no address of this computer ({addresses[0][4][0]})")
+
+
+def _address_towards(uri):
+    """Returns the address of this computer from which packets to the host of the URI are sent. Sends nothing."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.connect((urlparse(uri).hostname, 1))
+        return probe.getsockname()[0]
 
 
 def read_graph(uri: str, timeout: float) -> Graph:
