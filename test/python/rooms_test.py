@@ -3,11 +3,18 @@
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 """A node with the rooms and doors of config/rooms.yaml, and two obstacles that are near each other: a cart in the hall
 and a person in the cell."""
+import importlib.machinery
+import importlib.util
+import os
+import sys
 import threading
 import unittest
 
+import numpy as np
+import rospkg
 import rospy
 import rosunit
+import yaml
 from hgrid_proximity import obstacles
 from hgrid_proximity.client import Proximity
 from hgrid_proximity.msg import Pairs, Status
@@ -15,6 +22,16 @@ from visualization_msgs.msg import MarkerArray
 
 BESIDE_THE_DOOR, IN_THE_DOOR = 0.5, 2.0  # [m] y of both obstacles
 CART, PERSON = "obstacle/cart", "obstacle/person"
+
+
+def show_program():
+    """Imports the program that opens RViz."""
+    sys.dont_write_bytecode = True
+    path = os.path.join(rospkg.RosPack().get_path("hgrid_proximity"), "tools", "show")
+    loader = importlib.machinery.SourceFileLoader("show", path)
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("show", loader))
+    loader.exec_module(module)
+    return module
 
 
 class Rooms(unittest.TestCase):
@@ -86,6 +103,33 @@ class Rooms(unittest.TestCase):
             return lines == {"rooms", "doors"} and {marker.text for marker in drawn if marker.text} == names
 
         self.wait("all names and lines", shown)
+
+    def test_show_opens_rviz_with_the_whole_world(self):
+        """Claim: the camera that `show` gives to RViz sees all boxes and the text above them, and they fill the picture."""
+        show = show_program()
+        markers = show.first_markers("/proximity")
+        boxes = next(marker for marker in markers if marker.ns == "boxes")
+        verdict = next(marker for marker in markers if marker.ns == "verdict")
+        self.assertEqual(len(boxes.points), 2 * 24)
+        view = yaml.safe_load(show.config_for(markers))["Visualization Manager"]["Views"]["Current"]
+        self.assertEqual(view["Near Clip Distance"], 0.01)
+        yaw, pitch = view["Yaw"], view["Pitch"]
+        away = np.array([np.cos(yaw) * np.cos(pitch), np.sin(yaw) * np.cos(pitch), np.sin(pitch)])
+        right = np.array([-np.sin(yaw), np.cos(yaw), 0.0])
+        camera = np.array([view["Focal Point"][axis] for axis in "XYZ"]) + view["Distance"] * away
+        points = boxes.points + [verdict.pose.position]
+        seen = np.array([(point.x, point.y, point.z) for point in points]) - camera
+        depth = -seen @ away
+        half_height = np.tan(np.radians(22.5)) * depth
+        self.assertTrue(np.all(depth > 0.0))
+        self.assertTrue(np.all(np.abs(seen @ np.cross(away, right)) <= 1.001 * half_height))
+        self.assertTrue(np.all(np.abs(seen @ right) <= 1.001 * 4.0 / 3.0 * half_height))
+        self.assertLess(view["Distance"], 5.0 * np.linalg.norm(seen.max(axis=0) - seen.min(axis=0)))
+
+    def test_without_a_body_show_opens_rviz_as_configured(self):
+        show = show_program()
+        with open(show.CONFIG, encoding="utf-8") as file:
+            self.assertEqual(show.config_for([]), file.read())
 
     def test_zz_the_audit_has_found_no_difference(self):
         """Claim: the audit, which computes ticks again by brute force, knows the rooms.

@@ -4,15 +4,20 @@
 
 #include <visualization_msgs/MarkerArray.h>
 
+#include <chrono>
 #include <utility>
 #include <vector>
 
-#include "node/messages/map_markers.h"
-#include "node/messages/marker_parts.h"
-#include "node/messages/pair_markers.h"
-#include "node/messages/room_markers.h"
-#include "node/messages/shape_markers.h"
+#include "node/markers/box_markers.h"
+#include "node/markers/map_markers.h"
+#include "node/markers/marker_parts.h"
+#include "node/markers/pair_markers.h"
+#include "node/markers/room_markers.h"
+#include "node/markers/shape_markers.h"
+#include "node/markers/state_markers.h"
+#include "node/markers/verdict_markers.h"
 #include "node/messages/to_messages.h"
+#include "node/publishers/shown_tick.h"
 
 namespace hgrid {
 
@@ -23,22 +28,28 @@ void MarkersPublisher::publish(const Tick& newest, const std::shared_ptr<const M
   const std::size_t viewers = publisher_.getNumSubscribers();
   const bool new_viewer = viewers > std::exchange(viewers_, viewers);
   if (viewers == 0) return;
-  const bool has_distances = measured && measured->distances;
-  const Tick& shown = has_distances ? *measured->tick : newest;
+  const ShownTick chosen = shownTick(newest, measured.get(), std::chrono::steady_clock::now());
+  if (chosen.tick == nullptr) return;  // RViz removes the markers when their lifetime ends
+  const Tick& shown = *chosen.tick;
+  const NearPairs near = nearPairs(shown, chosen.distances);
+  const MarkerScale scale = scaleOf(shown);
   visualization_msgs::MarkerArray array;
   const auto add = [&array](std::vector<visualization_msgs::Marker> markers) {
     array.markers.insert(array.markers.end(), markers.begin(), markers.end());
   };
   if (new_viewer || haveOthers(shown)) add({deleteAll(shown)});
-  add(shapeMarkers(shown));
-  add({boxMarker(shown)});
-  add(stateMarkers(shown));
-  add(pairMarkers(shown, has_distances ? measured->distances.get() : nullptr));
+  add(shapeMarkers(shown, near));
+  add({boxMarker(shown, scale), trackMarker(shown, scale)});
+  add(stateMarkers(shown, scale));
+  add(pairMarkers(shown, near, scale));
+  add(verdictMarkers(shown, near, scale));
   add(queryMarkers(shown, sketch_));
   add(mapMarkers(shown, shown.settings->params));
   if (!rooms_) rooms_ = roomMarkers(shown);
   for (visualization_msgs::Marker& marker : *rooms_) marker.header = headerOf(shown);
   add(*rooms_);
+  const ros::Duration lifetime(markerLifetime(shown.settings->params).count());
+  for (visualization_msgs::Marker& marker : array.markers) marker.lifetime = lifetime;
   publisher_.publish(array);
 }
 

@@ -12,19 +12,20 @@
 #include <optional>
 #include <vector>
 
-#include "node/messages/query_markers.h"
+#include "node/markers/query_markers.h"
 #include "node/tick/tick.h"
 
 namespace hgrid {
 
-/// Publishes ~markers for RViz while there are subscribers. Only one thread may use it, but any thread may call
-/// subscribed().
+/// Publishes ~markers for RViz while there are subscribers. Every marker has a lifetime and is published again before
+/// it ends, so that nothing stays on the screen if the node ends or hangs. Only one thread may use it, but any thread
+/// may call subscribed().
 class MarkersPublisher {
  public:
   MarkersPublisher(ros::NodeHandle& private_node, const QuerySketch& sketch);
 
   bool subscribed() const { return publisher_.getNumSubscribers() > 0; }
-  /// @param measured  null: pairs are drawn by their boxes
+  /// @param measured  null: nothing was measured
   void publish(const Tick& newest, const std::shared_ptr<const MeasuredTick>& measured);
 
  private:

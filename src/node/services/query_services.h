@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include "node/messages/query_markers.h"
+#include "node/markers/query_markers.h"
 #include "node/queries/query_request.h"
 #include "node/services/envelope/service_envelope.h"
 #include "node/tf/transform_lookup.h"

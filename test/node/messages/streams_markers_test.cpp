@@ -75,19 +75,21 @@ TEST(Markers, ArePublishedForSubscribersAndBeginWithDeleteAll) {
     for (const Marker& marker : seen.back()->markers) {
       if (marker.action == Marker::DELETEALL) continue;
       EXPECT_EQ(marker.header.frame_id, "base");
+      EXPECT_GT(marker.lifetime.toSec(), 3.0 / 50.0) << marker.ns << marker.id;
+      EXPECT_LE(marker.lifetime.toSec(), 1.0) << "nothing stays in RViz after the end of the node";
       EXPECT_TRUE(ids.insert({marker.ns, marker.id}).second);
       drawn[marker.ns] += marker.action == Marker::ADD ? 1u : 0u;
     }
     EXPECT_EQ(drawn["shapes"], 3u);
     EXPECT_EQ(drawn["boxes"], 1u);
     EXPECT_EQ(drawn["pairs"], 2u) << "lines and dots";
-    EXPECT_EQ(drawn["pair_names"], 1u);
+    EXPECT_EQ(drawn["pair_numbers"], 1u);
+    EXPECT_EQ(drawn["verdict"], 2u) << "the verdict and the list of pairs";
     EXPECT_EQ(drawn["states"], 0u);
-    for (const Marker& marker : seen.back()->markers) {
-      if (marker.ns == "pair_names" && marker.action == Marker::ADD) {
-        EXPECT_EQ(marker.text.compare(0, 20, "robot/a to robot/b: "), 0) << marker.text;
-      }
-    }
+    std::string texts;
+    for (const Marker& marker : seen.back()->markers) texts += marker.ns == "verdict" ? marker.text : "";
+    EXPECT_NE(texts.find("COMPLETE: 1 near pair\n"), std::string::npos) << texts;
+    EXPECT_NE(texts.find("1. robot/a to robot/b: "), std::string::npos) << texts;
   }
   Ear<MarkerArray> eye(node.named("markers"));
   node.sphere(0, 0, 3, 0.5);
@@ -95,6 +97,10 @@ TEST(Markers, ArePublishedForSubscribersAndBeginWithDeleteAll) {
   eye.until([](const MarkerArray& array) { return draws(array, "queries"); });
   transforms.stop("b");
   eye.until([](const MarkerArray& array) { return draws(array, "states"); });
+  eye.until([](const MarkerArray& array) {
+    return std::any_of(array.markers.begin(), array.markers.end(),
+                       [](const Marker& marker) { return marker.text.compare(0, 13, "NOT COMPLETE:") == 0; });
+  });
 }
 
 TEST(Nodelet, ServesLikeTheNodeOnceItsParametersAreRight) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/messages/map_markers.h"
+#include "node/markers/map_markers.h"
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 
+#include "node/markers/marker_parts.h"
 #include "node/messages/to_messages.h"
 
 namespace hgrid {
@@ -36,23 +37,13 @@ std::vector<Voxel> voxelsNearBodies(const Snapshot& snapshot, std::uint32_t map,
   return all;
 }
 
-Marker cubes(const Tick& tick, const Params& params, const Pose& world_from_map, std::size_t map, std::size_t level,
-             double edge) {
-  Marker marker;
-  marker.header = headerOf(tick);
-  marker.ns = "maps";
-  marker.id = static_cast<int>(map * (Voxel::kLevels + 1) + level);
-  marker.type = Marker::CUBE_LIST;
-  marker.pose.position = toPoint(world_from_map.translation());
-  const Eigen::Quaterniond turn(world_from_map.linear());
-  marker.pose.orientation.x = turn.x();
-  marker.pose.orientation.y = turn.y();
-  marker.pose.orientation.z = turn.z();
-  marker.pose.orientation.w = turn.w();
+Marker cubes(const Tick& tick, std::uint32_t map, int id, double edge) {
+  const BodyPose& pose = tick.snapshot->poses()[map];
+  Marker marker = markerOf(tick, "maps", id, Marker::CUBE_LIST);
+  marker.action = Marker::ADD;
+  marker.pose = toPose(pose.world_from_body);
   marker.scale.x = marker.scale.y = marker.scale.z = edge;
-  marker.color.r = marker.color.g = marker.color.b = 0.62f;
-  marker.color.a = 0.9f;
-  marker.lifetime = ros::Duration(3.0 / params.marker_rate);
+  marker.color = colorOfBody(tick.snapshot->structure().bodies[map].kind, pose.state, std::nullopt);
   return marker;
 }
 
@@ -75,7 +66,7 @@ std::vector<Marker> mapMarkers(const Tick& tick, const Params& params) {
     for (std::size_t level = 0; level < centers.size(); ++level) {
       if (centers[level].empty()) continue;
       const double edge = std::ldexp(grid.finestEdge(), static_cast<int>(level));
-      markers.push_back(cubes(tick, params, snapshot.poses()[map].world_from_body, i, level, edge));
+      markers.push_back(cubes(tick, map, static_cast<int>(i * centers.size() + level), edge));
       markers.back().points = std::move(centers[level]);
     }
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/messages/room_markers.h"
+#include "node/markers/room_markers.h"
 
 #include "hgrid_proximity/broadphase/room_edges.h"
-#include "node/messages/marker_parts.h"
+#include "node/markers/marker_parts.h"
 #include "node/messages/to_messages.h"
 
 namespace hgrid {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/messages/shape_markers.h"
+#include "node/markers/shape_markers.h"
 
 #include <algorithm>
 #include <optional>
 
-#include "node/messages/marker_parts.h"
+#include "node/markers/marker_parts.h"
 #include "node/messages/to_messages.h"
 
 namespace hgrid {
@@ -16,31 +16,6 @@ using visualization_msgs::Marker;
 constexpr int kMostParts = 3;  // most markers that draw one shape: a capsule is a cylinder and two spheres
 constexpr std::size_t kMostTriangles = 20000;
 constexpr double kPlaneSide = 10.0, kPlaneThickness = 0.002;  // [m] of the square that stands for a plane
-constexpr int kMostStates = 20;
-constexpr double kStateTextHeight = 0.05;  // [m]
-
-std_msgs::ColorRGBA colorOf(BodyKind kind, Freshness state) {
-  switch (state) {
-    case Freshness::fresh:
-    case Freshness::late:
-      return kind == BodyKind::link ? rgba(0.34, 0.71, 0.91, 0.7) : rgba(0.82, 0.76, 0.64, 0.75);
-    case Freshness::stale:
-      return rgba(0.90, 0.62, 0.0, 0.7);
-    case Freshness::frozen:
-      return rgba(0.80, 0.47, 0.65, 0.7);
-    default:
-      return rgba(0.90, 0.10, 0.10, 0.7);
-  }
-}
-
-/// Returns the color of a level of the grid. People who confuse red and green can distinguish the colors, too (after
-/// Okabe and Ito, 2008).
-std_msgs::ColorRGBA levelColor(int level) {
-  static const std_msgs::ColorRGBA kColors[] = {rgba(0.34, 0.71, 0.91, 0.9), rgba(0.90, 0.62, 0.00, 0.9),
-                                                rgba(0.00, 0.62, 0.45, 0.9), rgba(0.80, 0.47, 0.65, 0.9),
-                                                rgba(0.94, 0.89, 0.26, 0.9), rgba(0.00, 0.45, 0.70, 0.9)};
-  return kColors[static_cast<std::size_t>(std::max(level, 0)) % 6];
-}
 
 void setScale(Marker& marker, double x, double y, double z) {
   marker.scale.x = x;
@@ -172,23 +147,9 @@ class ShapeDrawing {
   int parts_ = 0;
 };
 
-void addEdges(Marker& lines, const Aabb& box, const Eigen::Vector3d& origin, const std_msgs::ColorRGBA& color) {
-  const auto corner = [&](int bits) {
-    Eigen::Vector3d point;
-    for (int axis = 0; axis < 3; ++axis)
-      point[axis] = origin[axis] + (bits >> axis & 1 ? box.max[axis] : box.min[axis]);
-    return point;
-  };
-  for (int bits = 0; bits < 8; ++bits) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if ((bits >> axis & 1) == 0) addLine(lines, corner(bits), corner(bits | 1 << axis), color);
-    }
-  }
-}
-
 }  // namespace
 
-std::vector<Marker> shapeMarkers(const Tick& tick) {
+std::vector<Marker> shapeMarkers(const Tick& tick, const NearPairs& near) {
   std::vector<Marker> markers;
   if (!tick.snapshot) return markers;
   const Snapshot& snapshot = *tick.snapshot;
@@ -199,52 +160,12 @@ std::vector<Marker> shapeMarkers(const Tick& tick) {
     if (pose.state == Freshness::unplaced) continue;
     const Body& body = structure.bodies[number];
     const BodyShape& shape = body.shapes[structure.shapeOf(proxy)];
-    ShapeDrawing(tick, proxy, colorOf(body.kind, pose.state), markers)
+    // Only a part of a plane is near.
+    const std::optional<double> nearness = structure.isPlane(proxy) ? std::nullopt : near.nearness[number];
+    ShapeDrawing(tick, proxy, colorOfBody(body.kind, pose.state, nearness), markers)
         .draw(shape, pose.world_from_body * shape.body_from_shape);
   }
   return markers;
-}
-
-Marker boxMarker(const Tick& tick) {
-  Marker boxes = markerOf(tick, "boxes", 0, Marker::LINE_LIST);
-  boxes.scale.x = 0.004;
-  if (!tick.snapshot) return boxes;
-  const Snapshot& snapshot = *tick.snapshot;
-  for (ProxyId proxy = 0; proxy < snapshot.boxes().size(); ++proxy) {
-    if (snapshot.poses()[snapshot.structure().body_of_proxy[proxy]].state == Freshness::unplaced) continue;
-    if (snapshot.structure().isPlane(proxy)) continue;  // it has no box
-    addEdges(boxes, snapshot.boxes()[proxy], snapshot.origin(), levelColor(snapshot.broadPhase().levelOf(proxy)));
-  }
-  return boxes;
-}
-
-std::vector<Marker> stateMarkers(const Tick& tick) {
-  std::vector<Marker> texts;
-  for (int i = 0; i < kMostStates; ++i) {
-    texts.push_back(markerOf(tick, "states", i, Marker::TEXT_VIEW_FACING));
-    texts.back().scale.z = kStateTextHeight;
-  }
-  if (!tick.snapshot) return texts;
-  const Snapshot& snapshot = *tick.snapshot;
-  const Structure& structure = snapshot.structure();
-  std::vector<std::uint32_t> bodies;
-  for (std::uint32_t body = 0; body < structure.bodies.size(); ++body) {
-    const Freshness state = snapshot.poses()[body].state;
-    if (state >= Freshness::stale && state != Freshness::unplaced) bodies.push_back(body);
-  }
-  std::stable_sort(bodies.begin(), bodies.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return snapshot.poses()[a].state > snapshot.poses()[b].state;
-  });
-  for (std::size_t i = 0; i < std::min(texts.size(), bodies.size()); ++i) {
-    const Body& body = structure.bodies[bodies[i]];
-    const BodyPose& pose = snapshot.poses()[bodies[i]];
-    texts[i].action = Marker::ADD;
-    texts[i].text = body.name + ": " + name(pose.state);
-    texts[i].color = colorOf(body.kind, pose.state);
-    texts[i].color.a = 1.0f;
-    texts[i].pose.position = toPoint(pose.world_from_body.translation());
-  }
-  return texts;
 }
 
 }  // namespace hgrid

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "node/messages/query_markers.h"
+#include "node/markers/query_markers.h"
 
 #include <algorithm>
 
-#include "node/messages/marker_parts.h"
+#include "node/markers/marker_parts.h"
 #include "node/messages/to_messages.h"
 
 namespace hgrid {
@@ -15,8 +15,8 @@ using visualization_msgs::Marker;
 constexpr auto kShownFor = std::chrono::seconds(3);
 
 std_msgs::ColorRGBA colorOf(Verdict verdict) {
-  if (verdict == Verdict::hit) return rgba(0.84, 0.37, 0.0, 0.5);
-  return verdict == Verdict::clear ? rgba(0.0, 0.62, 0.45, 0.5) : rgba(0.6, 0.6, 0.6, 0.5);
+  if (verdict == Verdict::hit) return orange(0.5);
+  return verdict == Verdict::clear ? rgba(0.0, 0.62, 0.45, 0.5) : gray(0.5);
 }
 
 }  // namespace

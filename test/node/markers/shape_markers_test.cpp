@@ -1,36 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
-// Tests the markers that RViz draws for a tick.
+// Tests the markers that draw the shapes of bodies.
+#include "src/node/markers/shape_markers.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
+#include <set>
 
-#include "hgrid_proximity/narrow/core_narrow_phase.h"
-#include "src/node/messages/pair_markers.h"
-#include "src/node/messages/shape_markers.h"
-#include "test/support/scenes.h"
+#include "src/node/markers/box_markers.h"
+#include "src/node/markers/marker_colors.h"
+#include "test/node/support/marker_ticks.h"
 
 namespace hgrid {
 namespace test {
 namespace {
 
 using visualization_msgs::Marker;
-
-Tick tickWith(std::shared_ptr<const Snapshot> snapshot) {
-  Tick tick;
-  tick.world_frame = "world";
-  tick.snapshot = std::move(snapshot);
-  return tick;
-}
-
-Body bodyOf(const std::string& name, const Shape& shape, double padding = 0.0) {
-  Body body = obstacle(name);
-  body.shapes.push_back(shapeOf(shape));
-  body.shapes.back().padding = padding;
-  return body;
-}
 
 Pose turnedAt(double x, double angle) {
   Pose pose = at(x, 2.0, 3.0);
@@ -52,7 +40,8 @@ Eigen::Vector3d scaleOf(const Marker& marker) { return {marker.scale.x, marker.s
 std::vector<Marker> drawn(const Body& body, const Pose& pose) {
   Scene scene{SceneOptions()};
   put(scene, body, pose);
-  return shapeMarkers(tickWith(scene.commit(Time{1}, {})));
+  const Tick tick = tickOf(scene);
+  return shapeMarkers(tick, nearPairs(tick, nullptr));
 }
 
 TEST(ShapeMarkers, AreSolidsInTheTruePosesWithPadding) {
@@ -112,8 +101,8 @@ TEST(ShapeMarkers, OfAPlaneAreAThinSquareBelowItsSurfaceNearWhatMoves) {
   const Eigen::Vector3d center(100.0, -20.0, 4.0);
   put(scene, floor, pose);
   put(scene, ball("ball"), at(center.x(), center.y(), center.z()));
-  const Tick tick = tickWith(scene.commit(Time{1}, {}));
-  const std::vector<Marker> markers = shapeMarkers(tick);
+  const Tick tick = tickOf(scene);
+  const std::vector<Marker> markers = shapeMarkers(tick, nearPairs(tick, nullptr));
   ASSERT_EQ(markers.size(), 2u);
   const Marker& square = markers[1];
   EXPECT_EQ(square.type, Marker::CUBE);
@@ -125,31 +114,7 @@ TEST(ShapeMarkers, OfAPlaneAreAThinSquareBelowItsSurfaceNearWhatMoves) {
                         in_plane = pose.inverse() * surface;
   EXPECT_NEAR(in_plane.z(), 0.02, 1e-9);
   EXPECT_NEAR((in_plane - pose.inverse() * center).head<2>().norm(), 0.0, 1e-4);
-  EXPECT_EQ(boxMarker(tick).points.size(), 24u) << "the plane has no box";
-}
-
-TEST(PairMarkers, OfAPlaneConnectTheLowestCornerWithTheSurface) {
-  SceneOptions options;
-  options.margin = 3.0;
-  Scene scene(options);
-  Body floor = obstacle("floor", Mobility::fixed);
-  floor.shapes.push_back(shapeOf(Shape::plane()));
-  put(scene, floor, at(0.0));
-  put(scene, ball("ball", 0.5), at(7.0, 0.0, 2.5));
-  put(scene, ball("z_ball", 0.5), at(-7.0, 0.0, 2.5));
-  const std::vector<Marker> markers = pairMarkers(tickWith(scene.commit(Time{1}, {})), nullptr);
-  double low = 9.0, high = -9.0;
-  std::size_t points = 0;
-  for (const Marker& marker : markers) {
-    for (const geometry_msgs::Point& point : marker.points) {
-      ++points;
-      low = std::min(low, point.z);
-      high = std::max(high, point.z);
-    }
-  }
-  EXPECT_EQ(points, 8u) << "a line and its two ends for each of the two pairs";
-  EXPECT_NEAR(low, 0.0, 1e-6);
-  EXPECT_NEAR(high, 2.0, 1e-6);
+  EXPECT_EQ(boxMarker(tick, scaleOf(tick)).points.size(), 24u) << "the plane has no box";
 }
 
 TEST(ShapeMarkers, OfAMeshFileNameTheFile) {
@@ -171,94 +136,76 @@ TEST(ShapeMarkers, OfAMeshFileNameTheFile) {
   EXPECT_EQ(list[0].points.size(), 3u);
 }
 
-TEST(ShapeMarkers, HaveAnIdOfTheirOwnAndAColorForEachState) {
+TEST(ShapeMarkers, HaveAnIdOfTheirOwnAndAColorForEachKind) {
   Scene scene{SceneOptions()};
-  std::vector<BodyId> ids;
-  for (int i = 0; i < 6; ++i) {
-    ids.push_back(put(scene, bodyOf(std::string(1, char('a' + i)), Shape::capsule(0.2, 0.1)), at(i)));
+  double x = 0.0;
+  for (const BodyKind kind : {BodyKind::obstacle, BodyKind::link, BodyKind::track}) {
+    Body body = bodyOf(std::to_string(static_cast<int>(kind)), Shape::capsule(0.2, 0.1));
+    body.kind = kind;
+    put(scene, body, at(x += 2.0));
   }
-  Body link = bodyOf("link", Shape::sphere(0.1));
-  link.kind = BodyKind::link;
-  put(scene, link, at(9));
   scene.add(bodyOf("never_placed", Shape::sphere(0.1)));
-  scene.setState(ids[1], Freshness::late, 0.1);
-  scene.setState(ids[2], Freshness::stale, 0.3);
-  scene.setState(ids[3], Freshness::lost, 3.0);
-  scene.setState(ids[4], Freshness::frozen, 3.0);
-  scene.setState(ids[5], Freshness::invalid, 3.0);
-  const Tick tick = tickWith(scene.commit(Time{1}, {}));
-  const std::vector<Marker> markers = shapeMarkers(tick);
-  ASSERT_EQ(markers.size(), 6u * 3u + 1u) << "and none for the body without a pose";
+  const Tick tick = tickOf(scene);
+  const std::vector<Marker> markers = shapeMarkers(tick, nearPairs(tick, nullptr));
+  ASSERT_EQ(markers.size(), 3u * 3u) << "and none for the body without a pose";
   std::set<int> marker_ids;
   std::set<std::vector<float>> colors;
   for (const Marker& marker : markers) {
     marker_ids.insert(marker.id);
-    colors.insert({marker.color.r, marker.color.g, marker.color.b});
+    colors.insert(rgbOf(marker));
   }
   EXPECT_EQ(marker_ids.size(), markers.size());
-  EXPECT_EQ(colors.size(), 5u) << "link, obstacle, STALE, FROZEN, and one for LOST and INVALID";
-
-  std::vector<std::string> texts;
-  for (const Marker& marker : stateMarkers(tick)) {
-    if (marker.action == Marker::ADD) texts.push_back(marker.text);
-  }
-  EXPECT_EQ(texts, (std::vector<std::string>{"obstacle/f: INVALID", "obstacle/e: FROZEN", "obstacle/d: LOST",
-                                             "obstacle/c: STALE"}));
+  EXPECT_EQ(colors.size(), 3u) << "persons have a color of their own";
 }
 
-/// Two spheres that are 40 mm apart. Their boxes are less than 40 mm apart.
-class PairMarkersOf : public ::testing::Test {
- protected:
-  void SetUp() override {
-    const std::shared_ptr<NarrowPhase> narrow_phase = makeCoreNarrowPhase();
-    for (const char* name : {"a", "b"}) {
-      Body body = bodyOf(name, Shape::sphere(0.5));
-      body.shapes[0].solid = narrow_phase->solidOf(body.shapes[0].shape);
-      put(scene_, body, std::string(name) == "a" ? at(0) : at(1.04 * 0.6, 1.04 * 0.8));
-    }
-    tick_ = tickWith(scene_.commit(Time{1}, {}));
-    ASSERT_EQ(tick_.snapshot->pairs().size(), 1u);
-    distances_ = PairMeter(narrow_phase, MeterOptions()).measure(*tick_.snapshot);
+TEST(ShapeMarkers, AreGrayIfThePoseCannotBeTrusted) {
+  for (const Freshness state :
+       {Freshness::fresh, Freshness::late, Freshness::stale, Freshness::lost, Freshness::frozen, Freshness::invalid}) {
+    SCOPED_TRACE(name(state));
+    Scene scene{SceneOptions()};
+    put(scene, ball("near"), at(0.9));  // an old pose is gray, also if the body is near another
+    scene.setState(put(scene, ball("old"), at(0.0)), state, 0.1);
+    const Tick tick = tickOf(scene);
+    const std::vector<Marker> markers = shapeMarkers(tick, nearPairs(tick, nullptr));
+    ASSERT_EQ(markers.size(), 2u);
+    const bool is_gray = markers[1].color.r == markers[1].color.g && markers[1].color.g == markers[1].color.b;
+    EXPECT_EQ(is_gray, state >= Freshness::stale);
+    EXPECT_FALSE(markers[0].color.r == markers[0].color.g);
   }
-  static Eigen::Vector3d point(const Marker& marker, std::size_t i) {
-    return {marker.points[i].x, marker.points[i].y, marker.points[i].z};
-  }
-  Scene scene_{SceneOptions()};
-  Tick tick_;
-  std::shared_ptr<const PairDistances> distances_;
-};
-
-TEST_F(PairMarkersOf, AMeasuredPairConnectTheNearestPointsOfTheShapes) {
-  const std::vector<Marker> markers = pairMarkers(tick_, distances_.get());
-  ASSERT_EQ(markers[0].points.size(), 2u);
-  EXPECT_TRUE(point(markers[0], 0).isApprox(Eigen::Vector3d(0.3, 0.4, 0.0), 1e-6));
-  EXPECT_NEAR((point(markers[0], 1) - point(markers[0], 0)).norm(), 0.04, 1e-6);
-  EXPECT_EQ(markers[2].text, "obstacle/a to obstacle/b: 40 mm");
-  EXPECT_EQ(markers[3].action, Marker::DELETE) << "there is one pair only";
 }
 
-TEST_F(PairMarkersOf, APairThatWasNotMeasuredSayThatTheDistanceIsABound) {
-  const std::vector<Marker> markers = pairMarkers(tick_, nullptr);
-  ASSERT_EQ(markers[0].points.size(), 2u);
-  EXPECT_EQ(markers[2].text, "obstacle/a to obstacle/b: at least 0 mm") << "their boxes overlap";
-  EXPECT_TRUE(point(markers[0], 0).isApprox(point(markers[0], 1)));
-}
-
-TEST(PairMarkers, HaveTextsThatDoNotCoverEachOther) {
+/// Returns the color of the first of two balls whose surfaces are this far apart [m]. The margin is 0.1 m.
+std::vector<float> colorAt(double distance, BodyKind kind) {
   Scene scene{SceneOptions()};
-  for (int i = 0; i < 6; ++i) put(scene, ball(std::to_string(i), 0.05), at(0.01 * i));
-  const Tick tick = tickWith(scene.commit(Time{1}, {}));
-  std::vector<Marker> texts;
-  for (const Marker& marker : pairMarkers(tick, nullptr)) {
-    if (marker.ns == "pair_names" && marker.action == Marker::ADD) texts.push_back(marker);
-  }
-  ASSERT_EQ(texts.size(), 8u) << "of 15 pairs";
-  for (const Marker& a : texts) {
-    for (const Marker& b : texts) {
-      if (a.id == b.id) continue;
-      EXPECT_GT(std::abs(a.pose.position.z - b.pose.position.z), a.scale.z);
+  put(scene, measuredBall("a", 0.5, kind), at(0.0));
+  put(scene, measuredBall("b", 0.5), at(1.0 + distance));
+  const Tick tick = tickOf(scene);
+  return rgbOf(shapeMarkers(tick, nearPairs(tick, distancesOf(tick).get()))[kind == BodyKind::track ? 1 : 0]);
+}
+
+TEST(ShapeMarkers, AreYellowToOrangeIfTheBodyIsNearAnother) {
+  for (const BodyKind kind : {BodyKind::obstacle, BodyKind::link, BodyKind::track}) {
+    SCOPED_TRACE(static_cast<int>(kind));
+    EXPECT_EQ(colorAt(0.3, kind), colorAt(0.11, kind)) << "not near";
+    for (const double distance : {0.09, 0.05, 0.01}) {
+      const std::vector<float> nearer = colorAt(distance - 0.01, kind), farther = colorAt(distance, kind);
+      EXPECT_EQ(nearer[0], 1.0f);
+      EXPECT_LT(nearer[2], 0.5f) << "yellow or orange";
+      EXPECT_LT(nearer[1], farther[1]) << "the nearer, the less yellow";
     }
+    const std_msgs::ColorRGBA contact = orange(1.0);
+    EXPECT_EQ(colorAt(-0.01, kind), (std::vector<float>{contact.r, contact.g, contact.b}));
   }
+}
+
+TEST(ShapeMarkers, OfAPlaneAreNotTinted) {
+  Scene near{SceneOptions()}, alone{SceneOptions()};
+  for (Scene* scene : {&near, &alone}) put(*scene, planeBody("floor"), at(0.0));
+  put(near, ball("ball"), at(0.0));
+  const Tick near_tick = tickOf(near), alone_tick = tickOf(alone);
+  ASSERT_EQ(near_tick.snapshot->pairs().size(), 1u);
+  EXPECT_EQ(rgbOf(shapeMarkers(near_tick, nearPairs(near_tick, nullptr))[1]),
+            rgbOf(shapeMarkers(alone_tick, nearPairs(alone_tick, nullptr))[0]));
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // Tests the markers that draw ~rooms and ~doors.
-#include "src/node/messages/room_markers.h"
+#include "src/node/markers/room_markers.h"
 
 #include <gtest/gtest.h>
 
