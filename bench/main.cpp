@@ -18,7 +18,8 @@ namespace bench {
 
 #ifndef HGRID_BENCH_STATES
 void runStates(const Options&, std::vector<Record>&) {
-  std::printf("\n-- without states: FCL, urdfdom, console_bridge or tinyxml2 was not found when this program was built\n");
+  std::printf(
+      "\n-- without states: FCL, urdfdom, console_bridge or tinyxml2 was not found when this program was built\n");
 }
 #endif
 
@@ -51,7 +52,8 @@ int run(const Options& options) {
     const std::size_t before = records.size();
     measure(options, records);
     if (named && records.size() == before)
-      throw std::runtime_error("--part " + name + " measured nothing: what it needs is missing, or no option selects it");
+      throw std::runtime_error("--part " + name +
+                               " measured nothing: what it needs is missing, or no option selects it");
   };
   part("pairs", true, runPairs);
   part("loading", !options.quick, runLoadings);

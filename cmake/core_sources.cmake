@@ -174,15 +174,15 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND HGRID_KERNEL_FLAGS_avx512 -Wno-maybe-uninitialized -Wno-uninitialized)
 endif()
 
-# A unity build compiles several files as one, because the compiler needs most of its time for the headers of Eigen.
-#catkin_lint: ignore_once global_var_collision
-option(HGRID_UNITY "Compile several files of the core as one; OFF finds a missing #include" ON)
+# A unity build compiles several files as one, because the compiler needs most of its time for the templates of Eigen,
+# which the files have in common.
+set(HGRID_UNITY 48 CACHE STRING "Number of files of the core that are compiled as one; 1 finds a missing #include")
 
 # hgrid_core_options(target root): sets the options for a target that is built from the core's sources. Kernels are
 # optimized in every build type. All sources need -ffp-contract=off, so that a formula is rounded in the same way on all
 # machines.
 function(hgrid_core_options target root)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${HGRID_UNITY} UNITY_BUILD_BATCH_SIZE 12)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${HGRID_UNITY})
   target_include_directories(${target} PRIVATE "${root}/src")
   target_compile_options(${target} PRIVATE -ffp-contract=off)
   set(isas portable)

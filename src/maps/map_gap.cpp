@@ -11,7 +11,7 @@ namespace {
 
 /// Bounds the relative rounding errors of a box in the map and of its distance from a cell. Far from the origin they
 /// would otherwise hide a pair whose gap equals its margin.
-constexpr double kRounding = 1e-14;
+constexpr double kGapRounding = 1e-14;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ Eigen::AlignedBox3d boxInMap(const Pose& map_from_world, const Aabb& box, const 
   const Eigen::Vector3d low = box.min.cast<double>(), high = box.max.cast<double>();
   const Eigen::Vector3d middle = origin + 0.5 * (low + high);
   const Eigen::Vector3d center = map_from_world * middle;
-  const double rounding = kRounding * (middle.norm() + map_from_world.translation().norm() + (high - low).norm());
+  const double rounding = kGapRounding * (middle.norm() + map_from_world.translation().norm() + (high - low).norm());
   const Eigen::Vector3d half = (map_from_world.linear().cwiseAbs() * (0.5 * (high - low))).array() + rounding;
   return {center - half, center + half};
 }

@@ -10,7 +10,7 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kMostLooks = 4'000'000;  // largest number of distance measurements; so many take some seconds
+constexpr std::size_t kMostMeasurements = 4'000'000;  // of distances; so many take some seconds
 
 /// Splits cells until each part is inside a shape or outside all shapes.
 class Splitter {
@@ -50,7 +50,7 @@ class Splitter {
     bool reaches_in = false;
     for (const Placed& one : placed_) {
       if (!one.box.intersects(cube)) continue;
-      if (looks_ == kMostLooks) {
+      if (looks_ == kMostMeasurements) {
         ++others.undecided;
         others.voxels.push_back(cell);
         return true;

@@ -14,7 +14,7 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr double kRounding = 4e-15;  // relative to the coordinates: an upper bound of the rounding errors
+constexpr double kTriangleRounding = 4e-15;  // relative to the coordinates: an upper bound of the rounding errors
 
 double limited(double share) { return share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share; }
 
@@ -138,7 +138,7 @@ void tryInside(const Prepared& triangle, const Prepared& other, const Best& best
 
 CoreGap gapOfTriangles(const Triangle& first, const Triangle& second, double size, double enough) {
   const Prepared a(first), b(second);
-  const double rounding = kRounding * size;
+  const double rounding = kTriangleRounding * size;
   CoreGap gap;
   gap.lower = gap.upper = kInfinity;
   const double of_heights = rounding * size * size;

@@ -28,7 +28,7 @@ def prepare():
                 target.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copyfile(source, target)
     subprocess.run(["cmake", "-S", str(COPY / "test"), "-B", str(COPY / "build"), "-DCMAKE_BUILD_TYPE=None",
-                    "-DCMAKE_CXX_FLAGS=-O1", "-DHGRID_ADAPTERS=OFF"], check=True, stdout=subprocess.DEVNULL)
+                    "-DCMAKE_CXX_FLAGS=-O1", "-DHGRID_ADAPTERS=OFF", "-DHGRID_UNITY=8"], check=True, stdout=subprocess.DEVNULL)
 
 
 def unmutated():

@@ -13,7 +13,7 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kMostStates = 20;
+constexpr std::size_t kMostShownStates = 20;
 constexpr double kStatesApart = 5.0;  // [text heights]
 
 /// The bodies of one source whose pose is STALE or worse.
@@ -60,14 +60,14 @@ std::vector<visualization_msgs::Marker> stateMarkers(const Tick& tick, const Mar
     std::stable_sort(worst_first.begin(), worst_first.end(), [](const auto& a, const auto& b) {
       return a.second.count.begin()->first > b.second.count.begin()->first;
     });
-    if (worst_first.size() > kMostStates) worst_first.resize(kMostStates);
+    if (worst_first.size() > kMostShownStates) worst_first.resize(kMostShownStates);
     for (const auto& [source, old] : worst_first) {
       Eigen::Vector3d place = old.around.center();
       place.z() = old.around.max().z() + scale.text_height;
       labels.push_back({place, textOf(structure, source, old)});
     }
   }
-  return textsOf(tick, "states", kMostStates, scale.text_height,
+  return textsOf(tick, "states", kMostShownStates, scale.text_height,
                  joinedLabels(labels, kStatesApart * scale.text_height, "\n"));
 }
 

@@ -26,7 +26,7 @@ void onEndSignal(int) {
 }
 
 void onAlarm(int) {
-  if (write(STDERR_FILENO, kGaveUp, sizeof(kGaveUp) - 1) < 0) {
+  if (::write(STDERR_FILENO, kGaveUp, sizeof(kGaveUp) - 1) < 0) {
     // If even this text cannot be written, nothing else can report it.
   }
   _exit(0);

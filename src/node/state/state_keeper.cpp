@@ -21,7 +21,7 @@ constexpr std::chrono::seconds kDiskRetry{1};
 constexpr std::size_t kRoom = 1 << 20;  // [byte] the file is written anew when it is this much longer than twice its
                                         // first record
 
-bool isService(const PairRule& rule) { return rule.origin == Origin::service; }
+bool isFromService(const PairRule& rule) { return rule.origin == Origin::service; }
 
 bool isSameRule(const PairRule& a, const PairRule& b) {
   return a.first == b.first && a.second == b.second && a.reason == b.reason && a.allowed == b.allowed &&
@@ -35,7 +35,7 @@ WaitingChange erasureOf(const char* kind) {
 
 std::vector<PairRule> serviceRules(const std::vector<PairRule>& all) {
   std::vector<PairRule> rules;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(rules), isService);
+  std::copy_if(all.begin(), all.end(), std::back_inserter(rules), isFromService);
   return rules;
 }
 

@@ -10,8 +10,8 @@
 namespace hgrid {
 namespace {
 
-constexpr double kFarthest = 1e9;           // [m] largest accepted coordinate of a frame in its parent
-constexpr std::size_t kLongestFrame = 256;  // longest accepted frame name [bytes]
+constexpr double kFarthestTranslation = 1e9;  // [m] largest accepted coordinate of a frame in its parent
+constexpr std::size_t kLongestFrame = 256;    // longest accepted frame name [bytes]
 
 std::string whatOf(const TransformView& transform) {
   return "transform of frame '" + printable(std::string(transform.child)) + "'";
@@ -33,8 +33,9 @@ void checkNames(const TransformView& transform) {
 /// A quick check that most transforms pass. It builds no error sentence, which would cost time.
 bool isSound(const TransformView& transform) {
   const auto& [x, y, z] = transform.translation;
-  return std::abs(squaredLength(transform.rotation) - 1.0) <= 0.5 * kQuaternionTolerance && std::abs(x) <= kFarthest &&
-         std::abs(y) <= kFarthest && std::abs(z) <= kFarthest;
+  return std::abs(squaredLength(transform.rotation) - 1.0) <= 0.5 * kQuaternionTolerance &&
+         std::abs(x) <= kFarthestTranslation && std::abs(y) <= kFarthestTranslation &&
+         std::abs(z) <= kFarthestTranslation;
 }
 
 void checkNumbers(const TransformView& transform) {
@@ -42,7 +43,7 @@ void checkNumbers(const TransformView& transform) {
   const Eigen::Vector3d translation(transform.translation.data());
   const Eigen::Vector4d xyzw(transform.rotation.data());
   const std::string what = whatOf(transform);
-  checkWithin(checkedPose(translation, xyzw, what).translation(), kFarthest, what);
+  checkWithin(checkedPose(translation, xyzw, what).translation(), kFarthestTranslation, what);
 }
 
 void checkStamp(const TransformView& transform, const Moment& now, double max_future) {

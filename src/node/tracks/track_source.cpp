@@ -16,8 +16,8 @@
 namespace hgrid {
 namespace {
 
-constexpr std::chrono::milliseconds kPause{50};     // longest time between two looks for tracks that end
-constexpr std::chrono::milliseconds kLookAgain{2};  // pause between two checks for a missing transform
+constexpr std::chrono::milliseconds kLongestPause{50};  // longest time between two looks for tracks that end
+constexpr std::chrono::milliseconds kLookAgain{2};      // pause between two checks for a missing transform
 
 }  // namespace
 
@@ -76,7 +76,7 @@ void TrackSource::onMessage(const ros::MessageEvent<const MessageBytes>& event) 
 void TrackSource::run() {
   while (!queue_.ended()) {
     guarded(ledger_, failed_.c_str(), [this] {
-      if (const auto received = queue_.popFor(kPause)) handle(*received);
+      if (const auto received = queue_.popFor(kLongestPause)) handle(*received);
       if (list_.forget(thisMoment())) put();
     });
   }
