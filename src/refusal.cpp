@@ -43,6 +43,8 @@ std::string text(double value) {
 
 std::string secondsText(double duration) { return text(std::round(duration * 1e3) / 1e3) + " s"; }
 
+std::string metersText(double length) { return text(std::round(length * 1e6) / 1e6) + " m"; }
+
 std::string printable(const std::string& raw, std::size_t longest) {
   std::string out;
   for (std::size_t i = 0; i < raw.size();) {

@@ -47,6 +47,12 @@ TEST(Text, IsShortAndReadsBackAsTheSameNumber) {
   }
 }
 
+TEST(Text, OfALengthIsRoundedToMicrometers) {
+  EXPECT_EQ(metersText(0.25), "0.25 m");
+  EXPECT_EQ(metersText(0.12345678), "0.123457 m");
+  EXPECT_EQ(metersText(0.0), "0 m");
+}
+
 TEST(Text, DoesNotDependOnTheLocale) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
   for (const char* locale : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8"}) std::setlocale(LC_ALL, locale);

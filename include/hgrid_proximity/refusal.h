@@ -62,6 +62,10 @@ std::string text(double value);
 /// Returns a duration [s] as text, rounded to milliseconds, such as "0.25 s".
 std::string secondsText(double duration);
 
+/// Returns a length [m] as text, rounded to micrometers, such as "0.25 m". The coordinates of boxes are not more
+/// precise.
+std::string metersText(double length);
+
 /// Returns text from outside in a form that is safe for logs and messages. Control characters and invalid UTF-8 become
 /// `\xNN`. Text longer than `longest` bytes is cut and ends with "…".
 std::string printable(const std::string& raw, std::size_t longest = 128);

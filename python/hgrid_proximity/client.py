@@ -13,7 +13,7 @@
 
 Coordinates are in meters. Points and sizes are three numbers, or messages with the fields x, y and z. The modules
 `hgrid_proximity.errors`, `.events` and `.streams` describe what can go wrong, how to wait for events, and the arrays;
-`.obstacles` and `.robots` make the changes for apply_obstacles() and apply_robots().
+`.obstacles`, `.robots` and `.rules` make the changes for apply_obstacles(), apply_robots() and set_allowed().
 """
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from hgrid_proximity.batches import Batch, QueryBatchArrays, write_geometry
 from hgrid_proximity.errors import NoAnswer, Refused
 from hgrid_proximity.events import Events
 from hgrid_proximity.fields import Field, FieldArrays
-from hgrid_proximity.msg import Obstacle, RobotChange, Shape, Verdict
+from hgrid_proximity.msg import AllowedPair, Obstacle, RobotChange, Shape, Verdict
 from hgrid_proximity.paths import GuardedPath
 from hgrid_proximity.service import LONGEST, Service
 from hgrid_proximity.states import Edges, States
@@ -105,6 +105,8 @@ class Proximity:
                 ("query_shape", srv.QueryShape),
                 ("query_nearest", srv.QueryNearest),
                 ("explain_pair", srv.ExplainPair),
+                ("get_allowed", srv.GetAllowed),
+                ("list_scenes", srv.ListScenes),
                 ("query_batch", QueryBatchArrays),
                 ("distance_field", FieldArrays),
                 ("check_states", srv.CheckStates),
@@ -116,6 +118,9 @@ class Proximity:
             for name, service in (
                 ("apply_obstacles", srv.ApplyObstacles),
                 ("apply_robots", srv.ApplyRobots),
+                ("set_allowed", srv.SetAllowed),
+                ("load_octomap", srv.LoadOctomap),
+                ("clear_map", srv.ClearMap),
                 ("save_scene", srv.SaveScene),
                 ("load_scene", srv.LoadScene),
                 ("guard", srv.Guard),
@@ -180,10 +185,7 @@ class Proximity:
         request = srv.ExplainPairRequest(first=first, second=second, contacts=contacts)
         if stamp is not None:
             request.header.stamp = stamp
-        response = self._services[srv.ExplainPair](request)
-        if not response.success:
-            raise Refused(response.code.name, response.code.text)
-        return response
+        return _answered(self._services[srv.ExplainPair](request))
 
     def query_batch(
         self,
@@ -330,9 +332,7 @@ class Proximity:
 
         @throws Refused  there is no such robot
         """
-        response = self._changes["guard"](srv.GuardRequest(robot=robot))
-        if not response.success:
-            raise Refused(response.code.name, response.code.text)
+        self._change("guard", srv.GuardRequest(robot=robot))
 
     def apply_obstacles(self, *changes: Obstacle, complete_set: bool = False, owner: str = "", max_time: float = 0.0):
         """Makes all changes in their order, or none of them. `hgrid_proximity.obstacles` has functions that make changes.
@@ -350,10 +350,7 @@ class Proximity:
             failed_index is the index of the refused change, also 0 if the whole request was
         """
         request = srv.ApplyObstaclesRequest(changes=list(changes), complete_set=complete_set, owner=owner)
-        response = self._changes["apply_obstacles"](request, min(max_time, LONGEST))
-        if not response.success:
-            raise Refused(response.code.name, response.code.text, response.failed_index)
-        return response
+        return self._change("apply_obstacles", request, max_time)
 
     def apply_robots(self, *changes: RobotChange, max_time: float = 0.0):
         """Makes all changes in their order, or none of them. `hgrid_proximity.robots` has functions that make changes.
@@ -367,10 +364,66 @@ class Proximity:
         @throws Refused  nothing was changed, unless the code is BUSY and the text says that the change was made;
             failed_index is the index of the refused change, also 0 if the whole request was
         """
-        response = self._changes["apply_robots"](srv.ApplyRobotsRequest(changes=list(changes)), min(max_time, LONGEST))
-        if not response.success:
-            raise Refused(response.code.name, response.code.text, response.failed_index)
-        return response
+        return self._change("apply_robots", srv.ApplyRobotsRequest(changes=list(changes)), max_time)
+
+    def set_allowed(self, *rules: AllowedPair, remove: bool = False, force: bool = False, max_time: float = 0.0):
+        """Adds rules of which pairs may touch, in their order, or removes them: all of them or none.
+        `hgrid_proximity.rules` has functions that make rules.
+
+        After NoAnswer, the change may or may not have been made; it can be repeated.
+
+        @param remove  True: remove the rules with the same `first` and `second`, in either order
+        @param force  must be True if no pair could be reported any more
+        @param max_time  [s] how much longer than `timeout` to wait, for example for thousands of rules
+        @returns the response; `response.pairs_changed` is the number of pairs that were switched off or on again
+        @throws Refused  nothing was changed, unless the code is BUSY and the text says that the change was made
+        """
+        return self._change("set_allowed", srv.SetAllowedRequest(rules=list(rules), remove=remove, force=force), max_time)
+
+    def get_allowed(
+        self, first: str = "", second: str = "", rules: bool = False, as_srdf: bool = False, limit: int = 0
+    ):
+        """Returns the response of ~get_allowed: `entries` lists the pairs about which a rule decides, with that rule.
+
+        @param first, second  globs over names of bodies: only pairs of which one name matches `first` and the other one
+            matches `second`; empty: all names
+        @param rules  True: list the rules as they were given instead; the globs are compared with their texts
+        @param as_srdf  True: `srdf` holds the pairs within one robot as SRDF text
+        @param limit  largest number of entries; 0: ~max_pairs. `total` counts all, `truncated` says whether some are missing
+        @throws Refused  a glob is too long, or too many pairs would have to be examined
+        """
+        request = srv.GetAllowedRequest(first=first, second=second, rules=rules, as_srdf=as_srdf, limit=limit)
+        return _answered(self._services[srv.GetAllowed](request))
+
+    def load_octomap(
+        self,
+        file: str,
+        map: str,
+        position=(0.0, 0.0, 0.0),
+        orientation=UPRIGHT,
+        frame: str = "",
+        max_time: float = 0.0,
+    ):
+        """Reads a file of the folder ~map/folder into a map. The old map of that name stays until the new one is ready.
+
+        After NoAnswer, the map may or may not be there; load it again.
+
+        @param file  name of the file, without a path, such as "floor.bt"
+        @param map  name of the map without its source: "room" is the body "map/room"
+        @param position, orientation  [m], quaternion x, y, z, w: pose of the origin of the map in `frame`
+        @param frame  tf frame that the map follows; empty: the world frame
+        @param max_time  [s] how much longer than `timeout` to wait, for example for a map of 100 MB
+        @returns the response: `occupied_leaves`, `resolution` [m], `duration` [s]; `world` is the state of the world in the
+            first tick with the map
+        @throws Refused  nothing was changed
+        """
+        request = srv.LoadOctomapRequest(file=file, map=map, pose=as_pose(position, orientation))
+        request.header.frame_id = frame
+        return self._change("load_octomap", request, max_time)
+
+    def clear_map(self, map: str):
+        """Removes one map. Returns the response. @param map  name of the map; empty: all maps @throws Refused"""
+        return self._change("clear_map", srv.ClearMapRequest(map=map))
 
     def save_scene(self, name: str, replace: bool = False, max_time: float = 0.0):
         """Saves all obstacles, attachments and lasting rules as `scenes/NAME.yaml` in ~state_folder.
@@ -380,7 +433,7 @@ class Proximity:
         @returns the response; `response.path` is the path of the file
         @throws Refused  nothing was written
         """
-        return self._scene("save_scene", srv.SaveSceneRequest(name=name, replace=replace), max_time)
+        return self._change("save_scene", srv.SaveSceneRequest(name=name, replace=replace), max_time)
 
     def load_scene(self, name: str, replace: bool = False, max_time: float = 0.0):
         """Loads a saved scene, all of it or nothing. Obstacles of the scene replace those of the same names.
@@ -392,13 +445,15 @@ class Proximity:
         @returns the response; `response.world` is the state of the world in the first tick with the changes
         @throws Refused  nothing was changed
         """
-        return self._scene("load_scene", srv.LoadSceneRequest(name=name, replace=replace), max_time)
+        return self._change("load_scene", srv.LoadSceneRequest(name=name, replace=replace), max_time)
 
-    def _scene(self, service: str, request, max_time: float):
-        response = self._changes[service](request, min(max_time, LONGEST))
-        if not response.success:
-            raise Refused(response.code.name, response.code.text)
-        return response
+    def list_scenes(self):
+        """Returns the response of ~list_scenes: `names` lists the scenes in ~state_folder, sorted, and `saved` says for each
+        of them when its file was last written [UTC]. `unusable` has a sentence for each file that load_scene() cannot load.
+
+        @throws Refused  ~state_folder is not set, or it cannot be read
+        """
+        return _answered(self._services[srv.ListScenes](srv.ListScenesRequest()))
 
     def pairs(self) -> PairArrays:
         """Waits for the next message of ~pairs and returns it. Do not call this in a callback of ~pairs."""
@@ -450,10 +505,20 @@ class Proximity:
         _ask_same_world(request, lease, keep)
         return self._services[kind](request, 10.0)  # the longest time limit of these services
 
+    def _change(self, service: str, request, max_time: float = 0.0):
+        return _answered(self._changes[service](request, min(max_time, LONGEST)))
+
     def _query(self, kind, request, options) -> Answer:
         _apply(request, **options)
         extra = min(request.max_time, LONGEST) if request.max_time > 0.0 else 0.0  # [s] max_time may be infinite
         return Answer(self._services[kind](request, extra))
+
+
+def _answered(response):
+    """Returns the response. @throws Refused if it is a refusal"""
+    if not response.success:
+        raise Refused(response.code.name, response.code.text, getattr(response, "failed_index", None))
+    return response
 
 
 def _ask_same_world(request, lease, keep: float):

@@ -21,7 +21,8 @@ constexpr std::size_t kMostNamed = 8;  // largest number of joints in a reason
 
 struct LinkMatrix::State {
   State(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings)
-      : size(model.links.size()),
+      : model_name(model.name),
+        size(model.links.size()),
         words((size + 63) / 64),
         groups(model),
         origins(size * size, Origin::none),
@@ -34,6 +35,7 @@ struct LinkMatrix::State {
   void applyRules(const RobotModel& model, const LinkRules& rules, std::vector<std::string>& warnings);
   void set(std::uint32_t first, std::uint32_t second, Origin origin);
 
+  std::string model_name;
   std::size_t size, words;  // number of links; 64-bit words per bit set of links
   GroupTree groups;
   std::vector<std::uint32_t> group_of;  // rigid group of each link
@@ -54,6 +56,8 @@ Origin LinkMatrix::origin(std::uint32_t first, std::uint32_t second) const {
 }
 
 std::size_t LinkMatrix::size() const { return state_->size; }
+
+const std::string& LinkMatrix::modelName() const { return state_->model_name; }
 
 void LinkMatrix::State::setGroups(const RobotModel& model) {
   std::vector<std::vector<std::uint32_t>> members(groups.size());

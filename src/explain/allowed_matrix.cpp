@@ -134,19 +134,25 @@ AllowedList givenRules(const Structure& structure, const AllowedScope& scope) {
 }
 
 std::string srdfOf(const Structure& structure, const std::vector<PairRule>& entries) {
-  std::map<std::string, std::string> by_robot;
+  struct Element {
+    const LinkMatrix* links;  // of the robot
+    std::string tags;
+  };
+  std::map<std::string, Element> by_robot;
   for (const PairRule& entry : entries) {
     const std::uint32_t first = structure.find(entry.first), second = structure.find(entry.second);
     if (first == Structure::kNone || second == Structure::kNone) continue;
-    const std::string& robot = structure.bodies[first].robot;
-    if (robot.empty() || robot != structure.bodies[second].robot) continue;
-    by_robot[robot] += std::string("  <") + (entry.allowed ? "disable" : "enable") + "_collisions link1=\"" +
-                       escaped(localPart(entry.first)) + "\" link2=\"" + escaped(localPart(entry.second)) +
-                       "\" reason=\"" + escaped(entry.reason) + "\"/>\n";
+    const Body& body = structure.bodies[first];
+    if (!body.links || body.robot != structure.bodies[second].robot) continue;
+    Element& element = by_robot.try_emplace(body.robot, Element{body.links.get(), ""}).first->second;
+    element.tags += std::string("  <") + (entry.allowed ? "disable" : "enable") + "_collisions link1=\"" +
+                    escaped(localPart(entry.first)) + "\" link2=\"" + escaped(localPart(entry.second)) +
+                    "\" reason=\"" + escaped(entry.reason) + "\"/>\n";
   }
   std::string text;
   for (const auto& robot : by_robot) {
-    text += "<robot name=\"" + escaped(robot.first) + "\">\n" + robot.second + "</robot>\n";
+    const auto& [links, tags] = robot.second;
+    text += "<robot name=\"" + escaped(links->modelName()) + "\">\n" + tags + "</robot>\n";
   }
   return text;
 }

@@ -18,9 +18,6 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMostRooms = 4;  // most rooms of a body that a text names
 
-/// Returns a length as text, rounded to a micrometer, because the coordinates of boxes are not more precise.
-std::string meters(double length) { return text(std::round(length * 1e6) / 1e6) + " m"; }
-
 std::uint32_t known(const Structure& structure, const std::string& name) {
   const std::uint32_t body = structure.find(name);
   if (body == Structure::kNone) throw Refusal(Code::unknown_id, noSuchBody(name, structure.bodies));
@@ -74,13 +71,13 @@ class Words {
   bool hasBoxes() const { return !std::isnan(what_.gap); }
 
   std::string nearness() const {
-    const std::string margin = "the margin of " + meters(what_.margin);
+    const std::string margin = "the margin of " + metersText(what_.margin);
     if (!(what_.gap > 0.0)) return "their boxes touch or overlap, which is within " + margin;
     const std::string soon = what_.reported && !near_
                                  ? std::string(", but given their maximum speeds they can meet within ") +
                                        options_.horizon + ", or they passed each other since the previous tick"
                                  : "";
-    return "their boxes are " + meters(what_.gap) + " apart, " + (near_ ? "within " : "more than ") + margin + soon;
+    return "their boxes are " + metersText(what_.gap) + " apart, " + (near_ ? "within " : "more than ") + margin + soon;
   }
 
   /// Returns a sentence about the shapes of a body that could not be read; empty if all shapes were read.
@@ -199,7 +196,7 @@ class Words {
 
   std::string grown() const {
     if (!(what_.growth > 0.0) || !hasBoxes()) return {};
-    return " The margin is " + meters(what_.growth) + " larger than usual because data is old.";
+    return " The margin is " + metersText(what_.growth) + " larger than usual because data is old.";
   }
 
   static std::string freshness(const Body& body, Freshness state, double age) {
@@ -214,7 +211,7 @@ class Words {
       case Measure::apart:
         return std::isinf(what_.distance)
                    ? " Their shapes are farther apart than the distance up to which they were measured."
-                   : " Their shapes are " + meters(what_.distance) + " apart.";
+                   : " Their shapes are " + metersText(what_.distance) + " apart.";
       case Measure::contact:
         return " Their shapes are in contact.";
       case Measure::contained:

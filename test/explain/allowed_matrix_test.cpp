@@ -125,19 +125,19 @@ TEST(AllowedMatrix, IsWhatAScanOfAllPairsFindsForAnyRules) {
   EXPECT_GT(found, 1000u);
 }
 
-TEST(AllowedMatrix, SrdfHasThePairsOfEachRobotInOrder) {
+TEST(AllowedMatrix, SrdfHasThePairsOfEachRobotInOrderUnderItsNameInTheUrdf) {
   const auto snapshot = cellWith({allow("right/hand", "obstacle/box"), allow("left/hand", "right/hand")});
   const Structure& structure = snapshot->structure();
   EXPECT_EQ(
       srdfOf(structure, decidedPairs(structure, {"", "", kAll}).entries),
-      "<robot name=\"left\">\n"
+      "<robot name=\"arm\">\n"
       "  <disable_collisions link1=\"base\" link2=\"elbow\" reason=\"Never &lt;ever&gt; &amp; &quot;so&quot;\"/>\n"
       "  <disable_collisions link1=\"base\" link2=\"shoulder\" reason=\"they move as one\"/>\n"
       "  <enable_collisions link1=\"elbow\" link2=\"hand\" reason=\"\"/>\n"
       "  <disable_collisions link1=\"elbow\" link2=\"shoulder\" reason=\"joint 'elbow_joint' connects their rigid "
       "groups\"/>\n"
       "</robot>\n"
-      "<robot name=\"right\">\n"
+      "<robot name=\"arm\">\n"
       "  <disable_collisions link1=\"base\" link2=\"elbow\" reason=\"joint 'elbow_joint' connects their rigid "
       "groups\"/>\n"
       "  <disable_collisions link1=\"base\" link2=\"shoulder\" reason=\"they move as one\"/>\n"

@@ -9,6 +9,7 @@
 #include <hgrid_proximity/ExplainPair.h>
 #include <hgrid_proximity/GetAllowed.h>
 #include <hgrid_proximity/Guard.h>
+#include <hgrid_proximity/ListScenes.h>
 #include <hgrid_proximity/LoadOctomap.h>
 #include <hgrid_proximity/LoadScene.h>
 #include <hgrid_proximity/QueryBatch.h>
@@ -182,6 +183,7 @@ constexpr Read kKinds[] = {
     readAs<std_srvs::Trigger::Request>,
     readAs<visualization_msgs::MarkerArray>,
     readAs<geometry_msgs::PoseArray>,
+    readAs<msg::ListScenes::Request>,
 };
 
 }  // namespace

@@ -14,6 +14,7 @@ import rosgraph
 import rospy
 import rosunit
 from geometry_msgs.msg import Point, TransformStamped
+from hgrid_proximity import rules
 from hgrid_proximity.client import Proximity
 from hgrid_proximity.errors import EventsMissed, NoAnswer, Refused
 from hgrid_proximity.msg import Pairs, Shape, ShapeKind
@@ -133,6 +134,39 @@ class Client(unittest.TestCase):
 
     def test_explanations_are_sentences(self):
         self.assertIn("robot/ball", self.proximity.explain_pair("robot/ball", "obstacle/crate").explanation)
+
+    def test_rules_are_set_read_and_removed(self):
+        ask = self.proximity
+        held = rules.allow("robot/*", "obstacle/crate", reason="for the test", lifetime=300.0)
+        self.assertEqual(ask.set_allowed(held, rules.report("robot/ball", "obstacle/lamp")).pairs_changed, 1)
+        try:
+            pairs = ask.get_allowed("obstacle/*", "robot/ball", as_srdf=True)
+            decided = [(pair.first, pair.second, pair.allowed, pair.reason) for pair in pairs.entries]
+            self.assertEqual(
+                decided,
+                [("obstacle/crate", "robot/ball", True, "for the test"), ("obstacle/lamp", "robot/ball", False, "")],
+            )
+            self.assertTrue(200.0 < pairs.entries[0].lifetime.to_sec() <= 300.0)
+            given = ask.get_allowed(rules=True, limit=1)
+            self.assertEqual((given.entries[0].first, given.total, given.truncated), ("robot/*", 2, True))
+        finally:
+            ask.set_allowed(held, rules.report("robot/ball", "obstacle/lamp"), remove=True)
+        self.assertEqual(ask.get_allowed(rules=True).total, 0)
+
+    def test_rules_that_are_refused_change_nothing(self):
+        ask = self.proximity
+        with self.assertRaises(Refused) as refused:
+            ask.set_allowed(rules.allow("robot/ball", "obstacle/crate"), rules.allow("robot/ball", "obstacle/none"))
+        self.assertEqual(refused.exception.code, "UNKNOWN_ID")
+        with self.assertRaises(Refused) as refused:
+            ask.set_allowed(rules.allow("*", "*"))
+        self.assertEqual(refused.exception.code, "NEEDS_FORCE")
+        with self.assertRaises(Refused) as refused:
+            ask.get_allowed(513 * "*")
+        self.assertEqual(refused.exception.code, "BAD_ID")
+        self.assertEqual(ask.get_allowed(rules=True).total, 0)
+        ask.set_allowed(rules.allow("*", "*"), force=True)
+        ask.set_allowed(rules.allow("*", "*"), remove=True)
 
     def test_pairs_and_distances_are_arrays(self):
         self.move(NEAR)

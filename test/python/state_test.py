@@ -17,11 +17,10 @@ import rospy
 import rosunit
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from hgrid_proximity import obstacles, robots
+from hgrid_proximity import obstacles, robots, rules
 from hgrid_proximity.client import Proximity
 from hgrid_proximity.errors import ProximityError, Refused
-from hgrid_proximity.msg import AllowedPair, Bodies, Rules, Status
-from hgrid_proximity.srv import ClearMap, LoadOctomap, SetAllowed
+from hgrid_proximity.msg import Bodies, Rules, Status
 from moving_ball import Ball
 
 PATIENCE = 120.0  # [s] for a machine that is busy with other tests
@@ -78,8 +77,10 @@ class State(unittest.TestCase):
 
     def bodies(self):
         """The obstacles by name without "obstacle/"."""
-        message = rospy.wait_for_message("/proximity/bodies", Bodies, PATIENCE)
-        return {body.name[9:]: body for body in message.bodies if body.name.startswith("obstacle/")}
+        return {body.name[9:]: body for body in self.all_bodies() if body.name.startswith("obstacle/")}
+
+    def all_bodies(self):
+        return rospy.wait_for_message("/proximity/bodies", Bodies, PATIENCE).bodies
 
     def at(self, x, y, z):
         return self.proximity.query_sphere((x, y, z), 0.01, include="obstacle/*").names
@@ -154,23 +155,27 @@ class State(unittest.TestCase):
         self.assertEqual(set(self.bodies()), {"crate", "lamp", "late"})
 
     def test_rules_are_there_again(self):
-        allow = rospy.ServiceProxy("/proximity/set_allowed", SetAllowed)
-        rule = AllowedPair(first="robot/ball", second="obstacle/lamp", allowed=True, reason="for the test")
-        self.assertTrue(allow(rules=[rule]).durable)
+        rule = rules.allow("robot/ball", "obstacle/lamp", reason="for the test")
+        self.assertTrue(self.proximity.set_allowed(rule).durable)
         self.restart()
-        rules = rospy.wait_for_message("/proximity/rules", Rules, PATIENCE).rules
-        stored = [(kept.first, kept.second, kept.reason, kept.set_by) for kept in rules]
+        kept = rospy.wait_for_message("/proximity/rules", Rules, PATIENCE).rules
+        stored = [(each.first, each.second, each.reason, each.set_by) for each in kept]
         self.assertEqual(stored, [("robot/ball", "obstacle/lamp", "for the test", rospy.get_name())])
-        allow = rospy.ServiceProxy("/proximity/set_allowed", SetAllowed)
-        self.assertTrue(allow(rules=[rule], remove=True).durable)
+        self.assertTrue(self.proximity.set_allowed(rule, remove=True).durable)
         self.restart()
         self.assertEqual(rospy.wait_for_message("/proximity/rules", Rules, PATIENCE).rules, [])
 
     def test_maps_are_there_again(self):
-        self.assertTrue(rospy.ServiceProxy("/proximity/load_octomap", LoadOctomap)(file="room.bt", map="room").durable)
+        loaded = self.proximity.load_octomap("room.bt", "room", (0, 0, 7), frame="world")
+        self.assertTrue(loaded.durable)
+        self.assertGreater(loaded.occupied_leaves, 0)
         self.restart()
         self.wait_for_bodies_of_maps(["map/room"])
-        self.assertTrue(rospy.ServiceProxy("/proximity/clear_map", ClearMap)("room").durable)
+        poses = [body.pose.position.z for body in self.all_bodies() if body.name == "map/room"]
+        self.assertEqual(poses, [7.0])
+        with self.assertRaisesRegex(Refused, "RESOURCE_MISSING"):
+            self.proximity.load_octomap("none.bt", "room")
+        self.assertTrue(self.proximity.clear_map("room").durable)
         self.restart()
         self.wait_for_bodies_of_maps([])
 
@@ -180,12 +185,10 @@ class State(unittest.TestCase):
         found = None
         while found != names:
             self.assertLess(time.monotonic(), deadline, "the maps are %s" % found)
-            message = rospy.wait_for_message("/proximity/bodies", Bodies, PATIENCE)
-            found = [body.name for body in message.bodies if body.name.startswith("map/")]
+            found = [body.name for body in self.all_bodies() if body.name.startswith("map/")]
 
     def test_a_saved_scene_can_be_loaded_again(self):
-        allow = rospy.ServiceProxy("/proximity/set_allowed", SetAllowed)
-        rule = AllowedPair(first="robot/ball", second="obstacle/part", allowed=True, reason="for the test")
+        rule = rules.allow("robot/ball", "obstacle/part", reason="for the test")
         wedge = obstacles.hull([(0, 0, 0), (0.1, 0, 0), (0, 0.1, 0), (0, 0, 1e-5)])
         self.apply(
             obstacles.add("part", wedge, (3, 0, 0), owner="me"),
@@ -193,7 +196,7 @@ class State(unittest.TestCase):
             obstacles.attach("held", "robot/ball", (0.5, 0, 0)),
             obstacles.remove("crate"),
         )
-        self.assertTrue(allow(rules=[rule]).success)
+        self.proximity.set_allowed(rule)
         saved = self.proximity.save_scene("night")
         self.assertEqual(saved.path, str(self.folder / "own" / "scenes" / "night.yaml"))
         with self.assertRaisesRegex(ProximityError, "exists already"):
@@ -214,14 +217,38 @@ class State(unittest.TestCase):
         self.assertEqual(set(self.bodies()), {"held", "lamp", "part"})
         self.assertEqual(self.at(3.01, 0.01, 0.0), ["obstacle/part"])
         self.assertEqual(self.at(self.ball.x + 0.5, 0, 0), ["obstacle/held"])
-        rules = rospy.wait_for_message("/proximity/rules", Rules, PATIENCE).rules
-        self.assertIn(("robot/ball", "obstacle/part"), [(each.first, each.second) for each in rules])
+        listed = self.proximity.get_allowed(rules=True).entries
+        self.assertIn(("robot/ball", "obstacle/part"), [(each.first, each.second) for each in listed])
         with self.assertRaisesRegex(ProximityError, "there is no scene"):
             self.proximity.load_scene("day")
         pathlib.Path(saved.path).write_text("obstacles:\n- name: part\n  colour: red\n")
         with self.assertRaisesRegex(ProximityError, r"night.yaml/obstacles\[0\]/colour is not a field of an obstacle"):
             self.proximity.load_scene("night", replace=True)
         self.assertEqual(set(self.bodies()), {"held", "lamp", "part"})
+
+    def test_scenes_are_listed(self):
+        self.assertEqual(list(self.proximity.list_scenes().names), [])
+        before = time.time()
+        for name in ("night", "day"):
+            self.proximity.save_scene(name)
+        scenes = self.folder / "own" / "scenes"
+        (scenes / "notes.txt").write_text("not a scene")
+        (scenes / "other.yaml").symlink_to(scenes / "day.yaml")
+        far = 2 ** 33  # [s] later than a stamp can be
+        os.utime(str(scenes / "night.yaml"), (far, far))
+        listed = self.proximity.list_scenes()
+        self.assertEqual(list(listed.names), ["day", "night"])
+        self.assertTrue(before - 1.0 < listed.saved[0].to_sec() < time.time() + 1.0, listed.saved[0])
+        self.assertEqual(listed.saved[1].secs, min(2 ** 32 - 1, int((scenes / "night.yaml").stat().st_mtime)))
+        self.assertEqual(len(listed.unusable), 1)
+        self.assertIn("other.yaml' is a link", listed.unusable[0])
+
+    def test_without_a_folder_no_scenes_are_listed(self):
+        self.kill()
+        rospy.set_param("/proximity/state_folder", "")
+        self.start()
+        with self.assertRaisesRegex(Refused, "RESOURCE_DENIED: scenes are stored in ~state_folder, which is not set"):
+            self.proximity.list_scenes()
 
     def test_a_scene_is_valid_as_parameters(self):
         self.apply(

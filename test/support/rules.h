@@ -36,10 +36,11 @@ inline PairRule until(PairRule rule, PairRule::Clock::time_point end) {
 }
 
 /// Returns the bodies of an arm: base, shoulder, elbow and hand, each a sphere. A fixed joint connects base and
-/// shoulder.
+/// shoulder. The URDF names the robot "arm".
+/// @param robot  name of the robot in the scene
 inline std::vector<Body> armBodies(const std::string& robot, const LinkRules& srdf = {}) {
   RobotModel model;
-  model.name = robot;
+  model.name = "arm";
   const int base = addLink(model, "base", -1), shoulder = addLink(model, "shoulder", base, JointKind::fixed);
   addLink(model, "hand", addLink(model, "elbow", shoulder));
   findRigidGroups(model);

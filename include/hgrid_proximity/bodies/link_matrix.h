@@ -71,6 +71,8 @@ class LinkMatrix {
   Origin origin(std::uint32_t first, std::uint32_t second) const;
   /// Returns the number of links.
   std::size_t size() const;
+  /// Returns the name that the URDF gives the robot. Equal robots have the same one.
+  const std::string& modelName() const;
 
   /// The SRDF tag that names one pair of links.
   struct Tag {

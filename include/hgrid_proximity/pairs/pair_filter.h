@@ -19,9 +19,9 @@ class NameIndex;
 struct PairKinds {
   bool self = true;             ///< links of one robot
   bool robot_robot = true;      ///< links of two robots
-  bool robot_obstacle = true;   ///< a link and an obstacle
+  bool robot_obstacle = true;   ///< a link and an obstacle or track
   bool robot_map = true;        ///< a link and a map or cloud
-  bool moving_obstacle = true;  ///< an obstacle in a moving frame and any other obstacle, map or cloud
+  bool moving_obstacle = true;  ///< a moving obstacle or track, and any other obstacle, track, map or cloud
 };
 
 /// Says whether a pair of bodies is reported, what decided that, and why.

@@ -176,7 +176,10 @@ void visitParams(Visitor& v, Params& p) {
 
   v.section("Which pairs");
   v.kinds("pair_kinds", p.pair_kinds,
-          "kinds of pairs that are reported: any of self, robot_robot, robot_obstacle, robot_map, moving_obstacle");
+          "kinds of pairs that are reported. self: two links of one robot. robot_robot: links of two robots. "
+          "robot_obstacle: a link and an obstacle or track. robot_map: a link and a map or cloud. moving_obstacle: an "
+          "obstacle that can move, or a track, and any other obstacle, track, map or cloud. So a track counts as an "
+          "obstacle that can move, and a cloud as a map. Two bodies that cannot move are never a pair");
   v.allowed("allowed_pairs", p.allowed_pairs,
             "list of {first, second, reason, allowed}: globs over body names; pairs that match may touch and are not "
             "reported; allowed: false: they are reported, even if a robot allows them");

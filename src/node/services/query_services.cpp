@@ -16,28 +16,50 @@
 namespace hgrid {
 namespace {
 
-/// Returns the end of the summary of a CLEAR answer: it names sources that are not complete but do not affect the
-/// verdict. Empty if the world is complete.
-std::string elsewhere(const Snapshot& snapshot) {
-  if (snapshot.complete()) return "";
+/// Returns which sources are not complete: "not complete: 'map/hall' and 2 more". The world must not be complete.
+std::string incompleteText(const Snapshot& snapshot) {
   const std::vector<std::string>& sources = snapshot.incompleteSources();
   const std::string others = sources.size() > 1 ? " and " + std::to_string(sources.size() - 1) + " more" : "";
-  return " (not complete: '" + sources.front() + "'" + others +
-         "; the query does not ask about it or it cannot be there)";
+  return "not complete: '" + sources.front() + "'" + others;
 }
 
-/// Returns the summary of an answer.
+/// Returns the summary of a CLEAR answer. It names sources that are not complete but do not affect the verdict.
 /// @param asked  number of bodies that the query asks about; nullopt: all bodies
-std::string summaryOf(const QueryAnswer& found, const Snapshot& snapshot, std::optional<std::size_t> asked) {
+/// @param where  where none of them is: "there"
+std::string clearText(const Snapshot& snapshot, std::optional<std::size_t> asked, const std::string& where) {
+  const std::string none = asked ? "none of the " + std::to_string(*asked) + " requested bodies" : "nothing";
+  const std::string elsewhere = snapshot.complete() ? ""
+                                                    : " (" + incompleteText(snapshot) +
+                                                          "; the query does not ask about it or it cannot be there)";
+  return "CLEAR: " + none + " is " + where + elsewhere;
+}
+
+std::string countText(std::size_t bodies) { return std::to_string(bodies) + (bodies == 1 ? " body" : " bodies"); }
+
+/// Returns the summary of an answer.
+/// @param asked  as in clearText()
+template <class Request>
+std::string summaryOf(const Request&, const QueryAnswer& found, const Snapshot& snapshot,
+                      std::optional<std::size_t> asked) {
   if (found.verdict == Verdict::unknown) return "UNKNOWN: " + found.reason;
-  if (found.verdict == Verdict::clear) {
-    const std::string none =
-        asked ? "none of the " + std::to_string(*asked) + " requested bodies is there" : "nothing is there";
-    return "CLEAR: " + none + elsewhere(snapshot);
-  }
+  if (found.verdict == Verdict::clear) return clearText(snapshot, asked, "there");
   const std::string first =
       found.hits.empty() ? "" : ", first " + snapshot.structure().bodies[found.hits.front().body].name;
-  return "HIT: " + std::to_string(found.total) + (found.total == 1 ? " body" : " bodies") + first;
+  return "HIT: " + countText(found.total) + first;
+}
+/// As above. What is nearest need not touch anything, so the sentence does not say HIT.
+std::string summaryOf(const msg::QueryNearest::Request& request, const QueryAnswer& found, const Snapshot& snapshot,
+                      std::optional<std::size_t> asked) {
+  if (found.verdict == Verdict::unknown) return "UNKNOWN: " + found.reason;
+  if (found.verdict == Verdict::clear) {
+    return clearText(snapshot, asked,
+                     request.max_distance > 0.0 ? "within " + metersText(request.max_distance) : "there");
+  }
+  const QueryHit& nearest = found.hits.front();
+  const std::string late = found.examined_all ? "" : "; the time was over, so another body may be nearer";
+  const std::string unseen = snapshot.complete() ? "" : "; " + incompleteText(snapshot);
+  return "NEAREST: " + snapshot.structure().bodies[nearest.body].name + " at " + metersText(nearest.distance) + " (" +
+         countText(found.hits.size()) + " listed" + late + unseen + ")";
 }
 
 /// Returns when a query must end its search. @throws Refusal what deadlineOf() throws
@@ -129,7 +151,7 @@ void QueryServices::answer(ServiceCall<Service>& call, const Ask& ask) const {
   result.code = toMsg(Code::ok, found.reason);
   result.verdict = static_cast<std::uint8_t>(found.verdict);
   result.unknown_because = static_cast<std::uint8_t>(found.because);
-  result.summary = summaryOf(found, snapshot, question.of);
+  result.summary = summaryOf(request, found, snapshot, question.of);
   const std::string ago = agoText(snapshot, *newest->snapshot);
   if (!ago.empty()) result.summary += " (" + ago + ")";
   result.total = static_cast<std::uint32_t>(found.total);

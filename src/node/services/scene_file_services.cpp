@@ -5,6 +5,8 @@
 #include <ros/time.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <set>
 #include <string>
@@ -28,6 +30,15 @@ void checkNames(const std::vector<PairRule>& rules, const std::set<std::string>&
       if (std::none_of(obstacles.begin(), obstacles.end(), is_meant)) checkKnown({PairRule{glob, glob, ""}}, bodies);
     }
   }
+}
+
+/// Returns a time as a stamp. A stamp ends in the year 2106, so a later time becomes its last second.
+ros::Time rosTimeOf(const timespec& time) {
+  ros::Time stamp;
+  stamp.sec =
+      static_cast<std::uint32_t>(std::clamp<std::int64_t>(time.tv_sec, 0, std::numeric_limits<std::uint32_t>::max()));
+  stamp.nsec = static_cast<std::uint32_t>(time.tv_nsec);
+  return stamp;
 }
 
 bool isService(const PairRule& rule) { return rule.origin == Origin::service; }
@@ -61,6 +72,8 @@ SceneFileServices::SceneFileServices(ServiceEnvelope& envelope, const Params& pa
       envelope.serve<msg::SaveScene>("save_scene", [this](ServiceCall<msg::SaveScene>& call) { save(call); }));
   servers_.push_back(
       envelope.serve<msg::LoadScene>("load_scene", [this](ServiceCall<msg::LoadScene>& call) { load(call); }));
+  servers_.push_back(
+      envelope.serve<msg::ListScenes>("list_scenes", [this](ServiceCall<msg::ListScenes>& call) { list(call); }));
 }
 
 void SceneFileServices::save(ServiceCall<msg::SaveScene>& call) const {
@@ -70,6 +83,15 @@ void SceneFileServices::save(ServiceCall<msg::SaveScene>& call) const {
   const std::vector<PairRule>& rules = call.tick.snapshot().structure().filter.rules();
   file.write(sceneText(**obstacles, rules, params_), call.request.replace);
   call.response.path = file.path();
+}
+
+void SceneFileServices::list(ServiceCall<msg::ListScenes>& call) const {
+  SceneList list = listScenes(params_.state_folder);
+  for (const SceneList::Entry& scene : list.scenes) {
+    call.response.names.push_back(scene.name);
+    call.response.saved.push_back(rosTimeOf(scene.last_write));
+  }
+  call.response.unusable = std::move(list.unusable);
 }
 
 void SceneFileServices::load(ServiceCall<msg::LoadScene>& call) const {

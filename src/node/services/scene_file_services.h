@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <hgrid_proximity/ListScenes.h>
 #include <hgrid_proximity/LoadScene.h>
 #include <hgrid_proximity/SaveScene.h>
 
@@ -15,8 +16,8 @@
 
 namespace hgrid {
 
-/// Serves ~save_scene and ~load_scene. The thread that serves a request reads or writes the file, and prepares what it
-/// reads. A tick only takes over the prepared obstacles and rules, or returns the present obstacles.
+/// Serves ~save_scene, ~load_scene and ~list_scenes. The thread that serves a request reads or writes the file, and
+/// prepares what it reads. A tick only takes over the prepared obstacles and rules, or returns the present obstacles.
 ///
 /// As with AllowedServices, only one thread may serve requests.
 class SceneFileServices {
@@ -28,6 +29,7 @@ class SceneFileServices {
  private:
   void save(ServiceCall<msg::SaveScene>& call) const;
   void load(ServiceCall<msg::LoadScene>& call) const;
+  void list(ServiceCall<msg::ListScenes>& call) const;
 
   const Params& params_;
   std::shared_ptr<NarrowPhase> narrow_phase_;

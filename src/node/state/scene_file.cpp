@@ -7,11 +7,14 @@
 #include <unistd.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <limits>
 #include <locale>
 #include <sstream>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "hgrid_proximity/pairs/pair_rule.h"
@@ -26,6 +29,51 @@ namespace {
 
 constexpr std::size_t kLongestScene = 256 << 20;  // [byte]
 constexpr std::size_t kLongestSceneName = 64;     // [byte]
+constexpr std::size_t kMostSceneFiles = 10000;    // largest number of files in the folder of the scenes
+constexpr std::string_view kEnding = ".yaml";
+
+/// Returns the full path of the folder of the scenes. @throws Refusal resource_denied if ~state_folder is not set
+std::string pathOfScenes(const std::string& state_folder) {
+  if (state_folder.empty()) {
+    throw Refusal(Code::resource_denied,
+                  "scenes are stored in ~state_folder, which is not set; start the node with a folder");
+  }
+  return std::filesystem::absolute(state_folder).string() + "/scenes";
+}
+
+/// @throws Refusal bad_id
+void checkSceneName(const std::string& name) {
+  constexpr const char* kAllowed = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.";
+  if (!name.empty() && name.size() <= kLongestSceneName && name[0] != '.' &&
+      name.find_first_not_of(kAllowed) == std::string::npos) {
+    return;
+  }
+  throw Refusal(Code::bad_id, "the name of the scene is '" + printable(name, kLongestSceneName) +
+                                  "'; it must have 1 to " + std::to_string(kLongestSceneName) +
+                                  " letters, digits, '_', '-' or '.', and must not begin with '.'");
+}
+
+/// Returns the names of the files *.yaml in a folder, without this ending, sorted. @throws Refusal resource_denied;
+/// limit
+std::vector<std::string> sceneNamesIn(const std::string& folder) {
+  std::vector<std::string> found;
+  std::size_t count = 0;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (++count > kMostSceneFiles) {
+      throw Refusal(Code::limit, "the folder '" + printable(folder, 300) + "' has more than " +
+                                     std::to_string(kMostSceneFiles) + " files; move some of them to another folder");
+    }
+    const std::string name = entry->path().filename().string();
+    const std::size_t length = name.size() - std::min(name.size(), kEnding.size());
+    if (name.substr(length) == kEnding) found.push_back(name.substr(0, length));
+  }
+  if (error) {
+    throw Refusal(Code::resource_denied, "cannot read '" + printable(folder, 300) + "': " + error.message());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
 
 /// Returns the shortest text that gives exactly this number. The exponent has a sign and the mantissa a point, because
 /// readers of YAML 1.1 take it for a text otherwise.
@@ -235,21 +283,28 @@ SavedScene readScene(const std::string& text, const std::string& what, const Par
   throw Refusal(Code::parse, sentence);
 }
 
+SceneList listScenes(const std::string& state_folder) {
+  const std::string path = pathOfScenes(state_folder);
+  const Descriptor folder = openOwnFolder(path);
+  SceneList list;
+  for (const std::string& scene : sceneNamesIn(path)) {
+    const std::string file = scene + std::string(kEnding), full = path + "/" + file;
+    try {
+      checkSceneName(scene);
+      const std::optional<OpenFile> opened = openFile(folder.get(), file, full, kLongestScene);
+      if (!opened) continue;  // it was removed since
+      if (opened->size == 0) throw Refusal(Code::parse, "the file '" + printable(full, 300) + "' is empty");
+      list.scenes.push_back({scene, opened->last_write});
+    } catch (const Refusal& refusal) {
+      list.unusable.emplace_back(refusal.what());
+    }
+  }
+  return list;
+}
+
 SceneFolder::SceneFolder(const std::string& state_folder, const std::string& name)
-    : folder_((state_folder.empty() ? "" : std::filesystem::absolute(state_folder).string()) + "/scenes"),
-      file_(name + ".yaml"),
-      path_(folder_ + "/" + file_) {
-  constexpr const char* kAllowed = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.";
-  if (name.empty() || name.size() > kLongestSceneName || name[0] == '.' ||
-      name.find_first_not_of(kAllowed) != std::string::npos) {
-    throw Refusal(Code::bad_id, "the name of the scene is '" + printable(name, kLongestSceneName) +
-                                    "'; it must have 1 to " + std::to_string(kLongestSceneName) +
-                                    " letters, digits, '_', '-' or '.', and must not begin with '.'");
-  }
-  if (state_folder.empty()) {
-    throw Refusal(Code::resource_denied,
-                  "scenes are stored in ~state_folder, which is not set; start the node with a folder");
-  }
+    : folder_(pathOfScenes(state_folder)), file_(name + std::string(kEnding)), path_(folder_ + "/" + file_) {
+  checkSceneName(name);
 }
 
 void SceneFolder::write(const std::string& text, bool replace) const {

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <time.h>
+
 #include <map>
 #include <string>
 #include <vector>
@@ -28,7 +30,20 @@ std::string sceneText(const std::map<std::string, PlacedObstacle>& obstacles, co
 /// @throws Refusal parse; the sentence lists everything that is wrong
 SavedScene readScene(const std::string& text, const std::string& what, const Params& params);
 
-/// The files of ~save_scene and ~load_scene: "scenes/NAME.yaml" in ~state_folder.
+/// The scenes in ~state_folder.
+struct SceneList {
+  struct Entry {
+    std::string name;     ///< as in ~load_scene
+    timespec last_write;  ///< since the beginning of 1970, UTC
+  };
+  std::vector<Entry> scenes;          ///< sorted by name
+  std::vector<std::string> unusable;  ///< for each other file *.yaml: why ~load_scene cannot load it, as a sentence
+};
+/// Lists the scenes. Opens each file, but does not read it.
+/// @throws Refusal resource_denied if ~state_folder is not set or cannot be read; limit if it has more than 10000 files
+SceneList listScenes(const std::string& state_folder);
+
+/// The file of one scene: "scenes/NAME.yaml" in ~state_folder.
 class SceneFolder {
  public:
   /// @param state_folder  ~state_folder

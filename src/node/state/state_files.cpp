@@ -25,6 +25,11 @@ void checkOwner(int folder, const std::string& path) {
                                            "the user of the node with chown, and use chmod go-w");
 }
 
+[[noreturn]] void failSize(const std::string& path, std::size_t most) {
+  throw Refusal(Code::limit, "the file '" + printable(path, 300) + "' has more than " + std::to_string(most) +
+                                 " bytes, the largest size that is read");
+}
+
 }  // namespace
 
 Descriptor::Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
@@ -52,22 +57,36 @@ void writeAll(int file, const std::string& bytes, const std::string& path) {
   }
 }
 
-std::optional<std::string> bytesOf(int folder, const std::string& name, const std::string& path, std::size_t most) {
-  const Descriptor file(::openat(folder, name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
+std::optional<OpenFile> openFile(int folder, const std::string& name, const std::string& path, std::size_t most) {
+  // O_NONBLOCK: opening a pipe without it would wait for a writer. It changes nothing for a regular file.
+  Descriptor file(::openat(folder, name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (file.get() < 0 && errno == ENOENT) return std::nullopt;
-  if (file.get() < 0) failFile("read", path);
+  if (file.get() < 0 && errno == ELOOP) {
+    throw Refusal(Code::resource_denied,
+                  "'" + printable(path, 300) + "' is a link, which is not followed; put the file itself there");
+  }
+  struct stat about {};
+  if (file.get() < 0 || ::fstat(file.get(), &about) != 0) failFile("read", path);
+  if (!S_ISREG(about.st_mode)) {
+    throw Refusal(Code::resource_denied, "'" + printable(path, 300) + "' is no regular file");
+  }
+  const auto size = static_cast<std::size_t>(about.st_size);
+  if (size > most) failSize(path, most);
+  return OpenFile{std::move(file), size, about.st_mtim};
+}
+
+std::optional<std::string> bytesOf(int folder, const std::string& name, const std::string& path, std::size_t most) {
+  const std::optional<OpenFile> file = openFile(folder, name, path, most);
+  if (!file) return std::nullopt;
   std::string bytes;
   char part[1 << 16];
   while (true) {
-    const ssize_t count = ::read(file.get(), part, sizeof part);
+    const ssize_t count = ::read(file->descriptor.get(), part, sizeof part);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) failFile("read", path);
     if (count == 0) return bytes;
     bytes.append(part, static_cast<std::size_t>(count));
-    if (bytes.size() > most) {
-      throw Refusal(Code::limit, "the file '" + printable(path, 300) + "' has more than " + std::to_string(most) +
-                                     " bytes, the largest size that is read");
-    }
+    if (bytes.size() > most) failSize(path, most);  // it grows while it is read
   }
 }
 

@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <time.h>
+
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -30,8 +33,17 @@ Descriptor openOwnFolder(const std::string& path);
 /// Writes all bytes. @throws Refusal resource_denied
 void writeAll(int file, const std::string& bytes, const std::string& path);
 
-/// Returns the bytes of a file in a folder; nullopt if it does not exist. @param path  of the file, for error sentences
-/// @throws Refusal resource_denied, also if the file is a link; limit if it has more bytes than `most`
+/// An open file in a folder.
+struct OpenFile {
+  Descriptor descriptor;
+  std::size_t size;     ///< [byte]
+  timespec last_write;  ///< since the beginning of 1970, UTC
+};
+/// Opens a file in a folder for reading; nullopt if it does not exist. @param path  of the file, for error sentences
+/// @throws Refusal resource_denied, also if it is a link or no regular file; limit if it has more bytes than `most`
+std::optional<OpenFile> openFile(int folder, const std::string& name, const std::string& path, std::size_t most);
+
+/// Returns the bytes of a file in a folder; nullopt if it does not exist. The rest is as above.
 std::optional<std::string> bytesOf(int folder, const std::string& name, const std::string& path, std::size_t most);
 
 }  // namespace hgrid

@@ -26,6 +26,7 @@
 #include <hgrid_proximity/Hit.h>
 #include <hgrid_proximity/Lease.h>
 #include <hgrid_proximity/Guard.h>
+#include <hgrid_proximity/ListScenes.h>
 #include <hgrid_proximity/LoadOctomap.h>
 #include <hgrid_proximity/LoadScene.h>
 #include <hgrid_proximity/Obstacle.h>
@@ -52,6 +53,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -63,7 +65,7 @@ namespace {
 
 namespace msg = ::hgrid_proximity;
 
-constexpr std::uint32_t kPinnedVersion = 8;  // interface version of the MD5 sums below
+constexpr std::uint32_t kPinnedVersion = 9;  // interface version of the MD5 sums below
 
 /// A message or service file, its MD5 sum, and the MD5 sum that it must have in this interface version.
 struct Pin {
@@ -82,7 +84,7 @@ Pin service(const std::string& name, const std::string& pinned) {
 const std::vector<Pin>& pins() {
   static const std::vector<Pin> all = {
       message<msg::AllowedPair>("AllowedPair", "8390cbfa1b3008a47ee452ac3fbbaae3"),
-      message<msg::Answer>("Answer", "e7fda3f60c57714b74d7003537f2645f"),
+      message<msg::Answer>("Answer", "996d9df91376306046f1acf6191c77c3"),
       message<msg::Bodies>("Bodies", "458d873717eb35b0ae8756fdaae4f151"),
       message<msg::Body>("Body", "d6c40cb1c4173b0c8016fbda0d22a3ea"),
       message<msg::BodyStatus>("BodyStatus", "bd9a63f6ebcd25ae08ba8cfb73a999f9"),
@@ -106,26 +108,27 @@ const std::vector<Pin>& pins() {
       message<msg::Timing>("Timing", "ffa7e14ed99c15133b8734e32bdf8366"),
       message<msg::Lease>("Lease", "f42ec0bd4d9e2aedc5b12b61edaec0ca"),
       message<msg::WorldState>("WorldState", "6e7f0e7ad23b6a55d3f532ba2a769931"),
-      service<msg::ApplyObstacles>("ApplyObstacles", "f52ed5b3192f3c3a90fdc43ee3f2801d"),
-      service<msg::ApplyRobots>("ApplyRobots", "7c47cace6728675cd273ddc573cd5ece"),
-      service<msg::ClearMap>("ClearMap", "142d3d4665d9a7e8d3b73696517804d0"),
-      service<msg::DistanceField>("DistanceField", "fdf9c3c3da1699bc85c0867411243ca8"),
-      service<msg::ExplainPair>("ExplainPair", "7f877c8d05130f963b17495385f7f1f0"),
-      service<msg::GetAllowed>("GetAllowed", "a7c3ddc68c8114168a385cee5844a3f2"),
-      service<msg::Guard>("Guard", "a6bf946777eaf3eba6edd3c33b064b4a"),
-      service<msg::LoadOctomap>("LoadOctomap", "93e62be52a707156933524d97672cc2d"),
-      service<msg::QueryBatch>("QueryBatch", "7d59c04f9a167fdf1698108ee85346c5"),
-      service<msg::QueryBox>("QueryBox", "8b378a163990ffc39d9443cb21832dd5"),
-      service<msg::CheckEdges>("CheckEdges", "3cfce5225fb02d943b60318611c91353"),
-      service<msg::CheckStates>("CheckStates", "cb82fcc35a69c98c9b394d7d9c9c0303"),
-      service<msg::QueryNearest>("QueryNearest", "1c536a184c73768c2d7173dd305db8f6"),
-      service<msg::QuerySegment>("QuerySegment", "83354b4bfa81d8e0a19b2fb48ee25859"),
-      service<msg::QueryShape>("QueryShape", "76efaeb6fe39032be58a9723037afe87"),
-      service<msg::QuerySphere>("QuerySphere", "8d1bde871426c698cbcc9a957b9511ad"),
-      service<msg::LoadScene>("LoadScene", "0f60ed149b20c1e7f0f9d60b39f74b52"),
-      service<msg::ReloadRobot>("ReloadRobot", "c148d85435550cf328927baad9e10cd7"),
-      service<msg::SaveScene>("SaveScene", "c79d6e24b5e6e429b7bf1564478b72e1"),
-      service<msg::SetAllowed>("SetAllowed", "c60f7338bb2a4f5a788d3f5cf3a66a0c"),
+      service<msg::ApplyObstacles>("ApplyObstacles", "6f93a7e1f8dc10e8cdb209ffd7b5876a"),
+      service<msg::ApplyRobots>("ApplyRobots", "5c89c5002cdad88d2555cfab3f212f56"),
+      service<msg::ClearMap>("ClearMap", "65ed5eef6a74eb1f1a4be63c62d5b1da"),
+      service<msg::DistanceField>("DistanceField", "bfd4a4272ef20a442d7dbe30be5e8e47"),
+      service<msg::ExplainPair>("ExplainPair", "457360a42821f6b55053adaf3d496f5e"),
+      service<msg::GetAllowed>("GetAllowed", "9fed1122aeeb905b4c7f36a169ae06d9"),
+      service<msg::Guard>("Guard", "c873b91c43a10144f9226b16c37f40a0"),
+      service<msg::LoadOctomap>("LoadOctomap", "e4f109c1d659ff38a9cdcd1bef0eef96"),
+      service<msg::QueryBatch>("QueryBatch", "ff849843809738b3532005ab891c379e"),
+      service<msg::QueryBox>("QueryBox", "11811cca3f76b2e5b5c5193d3c3b97df"),
+      service<msg::CheckEdges>("CheckEdges", "5a67fbafce225e8c940a523c4998e2e5"),
+      service<msg::CheckStates>("CheckStates", "39a86f1c80ea4b9471018c646a2100a8"),
+      service<msg::QueryNearest>("QueryNearest", "4b5dee0806d6834dea30463f0e89a73d"),
+      service<msg::QuerySegment>("QuerySegment", "59a89bd9d550c80ecdbad0dc9d089262"),
+      service<msg::QueryShape>("QueryShape", "1c515b40df3e57bf697fe27ec588270d"),
+      service<msg::QuerySphere>("QuerySphere", "cbb9e20e07adc0ac2ed9dca0d4806220"),
+      service<msg::ListScenes>("ListScenes", "8ccdfa539449bd8cfb6d4ef1fec25066"),
+      service<msg::LoadScene>("LoadScene", "7e476d3490cbefd0cc94d14df2c3b8ab"),
+      service<msg::ReloadRobot>("ReloadRobot", "c5ae5f72eca260c90ca3f43adb386cf8"),
+      service<msg::SaveScene>("SaveScene", "e2ef1526fa8e3192d368c6e403842089"),
+      service<msg::SetAllowed>("SetAllowed", "8b7c12667844d46cf8314b0d66dc53f9"),
   };
   return all;
 }
@@ -161,6 +164,43 @@ TEST(InterfaceVersion, StandsForEveryTypeWithFields) {
     }
   }
   EXPECT_EQ(found, pins().size());
+}
+
+/// Claim: who prints an answer reads first what it says. Which data it is from stands at the end.
+TEST(Answers, BeginWithWhatTheySayAndEndWithTheWorld) {
+  const auto fieldsOf = [](const std::string& text) {
+    std::vector<std::string> names;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream words(line);
+      std::string type, name;
+      if (words >> type >> name && type[0] != '#') names.push_back(name);
+    }
+    return names;
+  };
+  const std::filesystem::path root = HGRID_PROJECT_DIR;
+  const auto textOf = [](const std::filesystem::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+  };
+  EXPECT_EQ(fieldsOf(textOf(root / "msg/Answer.msg")).front(), "summary");
+  std::size_t services = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(root / "srv")) {
+    SCOPED_TRACE(entry.path().filename());
+    const std::string text = textOf(entry.path());
+    const std::vector<std::string> fields = fieldsOf(text.substr(text.find("\n---\n") + 5));
+    const auto has = [&](const std::string& name) { return std::count(fields.begin(), fields.end(), name) != 0; };
+    EXPECT_EQ(fields.front(), has("answer") ? "answer" : has("explanation") ? "explanation" : "success");
+    if (has("world")) {
+      EXPECT_EQ(fields.back(), "world");
+    }
+    if (has("header")) {
+      EXPECT_EQ(fields[fields.size() - 2], "header");
+    }
+    ++services;
+  }
+  EXPECT_GE(services, 21u);
 }
 
 }  // namespace

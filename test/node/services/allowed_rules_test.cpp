@@ -303,7 +303,7 @@ TEST_F(AllowedRules, TheMatrixIsReturnedForGlobsWithALimitAndAsSrdf) {
   EXPECT_EQ(all.entries[0].reason, "it leans there");
   EXPECT_EQ(all.entries[0].lifetime, ros::Duration(0));
   EXPECT_EQ(all.srdf,
-            "<robot name=\"robot\">\n"
+            "<robot name=\"r\">\n"
             "  <disable_collisions link1=\"a\" link2=\"b\" reason=\"parked &amp; safe\"/>\n"
             "  <disable_collisions link1=\"a\" link2=\"base\" reason=\"joint 'base_a' connects their rigid groups\"/>\n"
             "  <disable_collisions link1=\"b\" link2=\"base\" reason=\"joint 'base_b' connects their rigid groups\"/>\n"

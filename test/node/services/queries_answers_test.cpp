@@ -77,6 +77,24 @@ TEST_F(QueryAnswers, ASegmentHitsBodiesInOrderAlongIt) {
   EXPECT_EQ(node_->segment(xyz(0, 0.3, 0), xyz(9, 0.3, 0), 0.25).answer.total, 4u);
 }
 
+TEST_F(QueryAnswers, TheSummaryOfANearestBodySaysWhichOneAndHowFar) {
+  msg::QueryNearest::Request request;
+  request.point = xyz(2.35, 0, 0);
+  request.include = {"obstacle/post_*"};
+  EXPECT_EQ(node_->ask(request).answer.summary, "NEAREST: obstacle/post_2 at 0.25 m (1 body listed)");
+  request.limit = 3;
+  EXPECT_EQ(node_->ask(request).answer.summary, "NEAREST: obstacle/post_2 at 0.25 m (3 bodies listed)");
+  request.point.x = 2.05;
+  EXPECT_EQ(node_->ask(request).answer.summary, "NEAREST: obstacle/post_2 at 0 m (3 bodies listed)");
+  request.point.x = 7;
+  request.max_distance = 0.5;
+  EXPECT_EQ(node_->ask(request).answer.summary, "CLEAR: none of the 4 requested bodies is within 0.5 m");
+  request.include.clear();
+  EXPECT_EQ(node_->ask(request).answer.summary, "CLEAR: nothing is within 0.5 m");
+  request.include = {"obstacle/nobody"};
+  EXPECT_TRUE(says(node_->ask(request).answer.summary, "UNKNOWN, because the query was refused: "));
+}
+
 TEST_F(QueryAnswers, ARadiusOf0MakesAPointAndEqualEndsMakeASphere) {
   EXPECT_EQ(namesOf(node_->sphere(2.05, 0, 0, 0.0).answer), std::vector<std::string>({"obstacle/post_2"}));
   EXPECT_EQ(node_->sphere(2.2, 0, 0, 0.0).answer.verdict, msg::Verdict::CLEAR);

@@ -2,9 +2,14 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "src/node/state/scene_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <random>
 
 #include "src/node/params/obstacle_params.h"
@@ -293,6 +298,95 @@ TEST(YamlValues, WhatIsWrongIsNamedWithItsLine) {
 TEST(SceneFolders, HaveFullPaths) {
   EXPECT_EQ(SceneFolder("/tmp", "x").path(), "/tmp/scenes/x.yaml");
   EXPECT_EQ(SceneFolder("state", "x").path(), (std::filesystem::current_path() / "state/scenes/x.yaml").string());
+}
+
+/// Tests with a folder of their own, which stands for ~state_folder.
+class ScenesOfAFolder : public ::testing::Test {
+ protected:
+  ScenesOfAFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "scenes_XXXXXX").string();
+    state_ = mkdtemp(pattern.data());
+    scenes_ = state_ / "scenes";
+    listScenes(state_.string());  // makes the folder
+  }
+  ~ScenesOfAFolder() override { std::filesystem::remove_all(state_); }
+
+  void write(const std::string& file, const std::string& text) const { std::ofstream(scenes_ / file) << text; }
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const SceneList::Entry& scene : listScenes(state_.string()).scenes) names.push_back(scene.name);
+    return names;
+  }
+
+  std::filesystem::path state_, scenes_;
+};
+
+TEST_F(ScenesOfAFolder, AreListedByNameWithTheTimeOfTheLastWrite) {
+  EXPECT_TRUE(names().empty());
+  for (const char* name : {"b", "a-b", "a"}) SceneFolder(state_.string(), name).write("obstacles: []\n", false);
+  EXPECT_EQ(names(), (std::vector<std::string>{"a", "a-b", "b"}));
+  const timespec times[] = {{0, 0}, {1700000000, 250000000}};  // of the last access and of the last write
+  ASSERT_EQ(utimensat(AT_FDCWD, (scenes_ / "a.yaml").c_str(), times, 0), 0);
+  const SceneList list = listScenes(state_.string());
+  EXPECT_EQ(list.scenes[0].last_write.tv_sec, 1700000000);
+  EXPECT_EQ(list.scenes[0].last_write.tv_nsec, 250000000);
+  EXPECT_TRUE(list.unusable.empty());
+}
+
+TEST_F(ScenesOfAFolder, AreNamedWithTheReasonIfTheyCannotBeLoaded) {
+  write("good.yaml", "obstacles: []\n");
+  write("empty.yaml", "");
+  write("my scene.yaml", "obstacles: []\n");
+  write(".yaml", "obstacles: []\n");
+  write("notes.txt", "not a scene");
+  write("good.yaml.new", "the rest of a save that was interrupted");
+  std::filesystem::create_directory(scenes_ / "folder.yaml");
+  std::filesystem::create_symlink(scenes_ / "good.yaml", scenes_ / "link.yaml");
+  ASSERT_EQ(mkfifo((scenes_ / "pipe.yaml").c_str(), 0600), 0);
+  write("long.yaml", "");
+  std::filesystem::resize_file(scenes_ / "long.yaml", (256 << 20) + 1);
+  const SceneList list = listScenes(state_.string());
+  EXPECT_EQ(names(), std::vector<std::string>{"good"});
+  ASSERT_EQ(list.unusable.size(), 7u);
+  const char* const reasons[] = {"the name of the scene is ''",
+                                 "empty.yaml' is empty",
+                                 "folder.yaml' is no regular file",
+                                 "link.yaml' is a link",
+                                 "long.yaml' has more than 268435456 bytes",
+                                 "the name of the scene is 'my scene'",
+                                 "pipe.yaml' is no regular file"};
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_TRUE(says(list.unusable[i], reasons[i]));
+  for (const char* name : {"folder", "link", "pipe", "long"}) {
+    EXPECT_NE(refusalBy([&] { SceneFolder(state_.string(), name).read(); }), "") << name << " is not listed";
+  }
+}
+
+TEST_F(ScenesOfAFolder, AreNamedIfTheUserMayNotReadThem) {
+  if (geteuid() == 0) {  // root may read everything, so act as another user
+    ASSERT_EQ(chown(state_.c_str(), 65534, 65534), 0);
+    ASSERT_EQ(chown(scenes_.c_str(), 65534, 65534), 0);
+    ASSERT_EQ(seteuid(65534), 0);
+  }
+  write("secret.yaml", "obstacles: []\n");
+  std::filesystem::permissions(scenes_ / "secret.yaml", std::filesystem::perms::none);
+  const SceneList list = listScenes(state_.string());
+  ASSERT_EQ(seteuid(getuid()), 0);
+  EXPECT_TRUE(list.scenes.empty());
+  ASSERT_EQ(list.unusable.size(), 1u);
+  EXPECT_TRUE(says(list.unusable[0], "secret.yaml': Permission denied"));
+}
+
+TEST_F(ScenesOfAFolder, AreRefusedIfThereAreTooManyFiles) {
+  for (int i = 0; i < 10000; ++i) write("note_" + std::to_string(i), "");
+  EXPECT_TRUE(names().empty());
+  write("one_more", "");
+  EXPECT_TRUE(says(refusalBy([&] { names(); }), "has more than 10000 files; move some of them"));
+}
+
+TEST_F(ScenesOfAFolder, AreRefusedWithoutAFolder) {
+  EXPECT_TRUE(says(refusalBy([] { listScenes(""); }), "RESOURCE_DENIED scenes are stored in ~state_folder"));
+  std::filesystem::permissions(scenes_, std::filesystem::perms::all);
+  EXPECT_TRUE(says(refusalBy([&] { names(); }), "chmod go-w"));
 }
 
 TEST(SceneFolders, TakeOnlyPlainNames) {
