@@ -4,7 +4,7 @@
 """Plans a motion between two joint positions with RRT-Connect (Kuffner and LaValle, 2000). The node proves that each edge
 is free. The plan is printed with three decimals; the proof is for the values before rounding.
 
-usage: rosrun hgrid_proximity plan.py [--joints NAME,NAME,...] START... : GOAL... [REMAPPING...]
+usage: rosrun hgrid_proximity plan.py [-h] [--joints NAME,NAME,...] START... : GOAL... [REMAPPING...]
 
 Start it beside one_arm.launch. START and GOAL have one value [rad or m] for each joint, in the order of --joints. The
 default joints are joint_1 to joint_6. ROS remappings, such as __ns:=NAMESPACE, may follow.

@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
   if (argc > 1) {
     const std::string word = argv[1];
     if (word != "--help" && word != "-h") return std::fputs("hgrid_alone takes no arguments\n", stderr), 2;
-    return std::puts("usage: hgrid_alone\n\nStores boxes in a grid, prints overlapping pairs and answers to queries."),
+    return std::puts("usage: hgrid_alone [-h]\n\nStores boxes in a grid, prints overlapping pairs and answers to queries."),
            0;
   }
   hgrid::HGrid grid;  // the boxes may be anywhere and of any size

@@ -19,7 +19,7 @@
 namespace {
 
 constexpr char kUsage[] =
-    "usage: scene_queries FILE.urdf\n\n"
+    "usage: scene_queries [-h] FILE.urdf\n\n"
     "Places a robot beside a table, lists the near pairs with their distances, and asks what a sphere touches.\n";
 
 /// Adds a body whose pose is known.

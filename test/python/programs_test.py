@@ -6,6 +6,7 @@
 import os
 import socket
 import subprocess
+import sys
 import unittest
 
 import rosgraph
@@ -26,8 +27,10 @@ def scripts():
     for folder in ("demo", "examples", "tools"):
         for name in sorted(os.listdir(os.path.join(PACKAGE, folder))):
             path = os.path.join(PACKAGE, folder, name)
-            if os.path.isfile(path) and os.access(path, os.X_OK):
-                yield path
+            if os.path.isfile(path):
+                with open(path, "rb") as file:
+                    if file.read(2) == b"#!":
+                        yield path
 
 
 def programs():
@@ -35,7 +38,10 @@ def programs():
 
 
 def run(program, *arguments, **environment):
-    return subprocess.run([program, *arguments], env=dict(os.environ, **environment), stdin=subprocess.DEVNULL,
+    command = [program, *arguments]
+    if program in scripts():
+        command.insert(0, sys.executable)  # some scripts become executable when they are installed
+    return subprocess.run(command, env=dict(os.environ, **environment), stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=60)
 
 

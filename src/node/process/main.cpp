@@ -29,6 +29,10 @@ int main(int argc, char** argv) {
   if (const std::optional<int> code = hgrid::exitCodeOfNameConflict(line.name_conflict)) return *code;
   const hgrid::NameWatch name_watch;
   ros::NodeHandle node, private_node("~");
+  // roscpp reads this parameter at the first log line, and thereby registers the node at the master. If the first line
+  // said that another node has taken the name, this registration would end that other node.
+  bool ignored = false;
+  ros::param::getCached("/rosout_disable_topics_generation", ignored);
   try {
     const hgrid::ProximityNode proximity(node, private_node);
     ros::waitForShutdown();
