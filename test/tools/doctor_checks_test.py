@@ -216,6 +216,8 @@ class DoctorChecks(unittest.TestCase):
         self.assertIn("`robots: [{name: robot, description: /arm/robot_description}]`", fix)
         self.facts.parameters = {"/arm/robot_description_semantic"}
         self.assertIn("semantic: /arm/robot_description_semantic}]`", self.expect("no_description").fix)
+        self.break_source("obstacle", "")  # it waits for the world, whose frame is the root of the robot
+        self.expect("no_description")
         self.facts.robots[0].candidates = []
         self.assertIn("`rosparam set -t my_robot.urdf /robot_description`", self.expect("no_description").fix)
 

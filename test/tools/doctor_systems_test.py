@@ -24,7 +24,6 @@ XACRO = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
 </robot>"""
 SEEN_ARM = ARM.replace("collision>", "visual>")
 TABLE = {"name": "table", "shapes": [{"type": "box", "size": [1.0, 1.0, 0.1]}]}
-LEFT_ARM = {"name": "arm", "description": "/arm/robot_description"}
 PEOPLE = {"name": "people", "topic": "/nobody", "type": "poses", "shapes": [{"type": "sphere", "radius": 0.3}]}
 PERSONS = (
     "rostopic pub -s -r 10 /persons geometry_msgs/PoseArray "
@@ -378,7 +377,7 @@ class DoctorSystems(unittest.TestCase):
     def test_what_only_the_node_says(self):
         system = self.system
         self.sound_robot(description=ARM.replace(BASE_SHAPE, '<sphere radius="nan"/>'))
-        (shape, cart) = self.start_and_expect(
+        (cart, shape) = self.start_and_expect(
             loaded,
             "source_incomplete",
             "source_incomplete",

@@ -41,9 +41,11 @@ def check(facts: Facts, findings: Findings):
 
 
 def check_sources(facts: Facts, findings: Findings):
+    robot_explained = any(findings.explain(robot.settings.name, ERROR) for robot in facts.robots)
     for source in facts.status.sources:
         if not source.complete:
-            if findings.explain(source.name, ERROR):
+            # Without a reason of its own, the source waits for the world, which may wait for a robot.
+            if findings.explain(source.name, ERROR) or (robot_explained and not source.reason):
                 continue
             reason = source.reason or "; ".join(facts.status.not_ready) or "it says no reason"
             fix = fix_of(facts, source.name, reason)
