@@ -314,6 +314,8 @@ class DoctorChecks(unittest.TestCase):
         self.facts.robots[0].settings.semantic = "my_srdf"
         self.facts.status.model_warnings = ["robot: parameter 'my_srdf' is not set; it was to hold the SRDF"]
         self.expect("no_srdf", code=EXIT_WARN)
+        self.facts.robots[0].semantic = parse_srdf("<robot>")
+        self.expect("bad_srdf")
 
     # Frames
 

@@ -142,7 +142,7 @@ def check_models(facts: Facts, findings: Findings):
     warnings = list(facts.status.model_warnings)
     if findings.has("srdf_of_other_robot", "srdf_unknown_links"):
         warnings = [text for text in warnings if "names link" not in text]
-    if findings.has("no_srdf"):
+    if findings.has("no_srdf", "bad_srdf"):  # while an SRDF cannot be read, the warnings of the old model stay
         warnings = [text for text in warnings if "SRDF" not in text]
     warnings = [text for text in warnings if not text.startswith("... and")]  # the end of a list that is cut
     if warnings:
