@@ -101,8 +101,11 @@ class DoctorChecks(unittest.TestCase):
 
     def test_without_a_master_nothing_else_is_said(self):
         self.facts.graph.error = "Connection refused"
+        self.facts.environment.master_uri = "http://host:12345/"
         self.facts.environment.own_name_error = "it cannot be resolved"
-        self.expect("no_master", "bad_own_address")
+        self.assertIn("`roscore -p 12345`", self.expect("no_master", "bad_own_address").fix)
+        self.facts.environment.master_uri = "http://host:11311"
+        self.assertIn("`roscore`", self.expect("no_master", "bad_own_address").fix)
 
     def test_a_host_that_cannot_be_resolved_is_told_once_for_all_its_nodes(self):
         for name in ("/rsp", "/driver"):
@@ -111,7 +114,9 @@ class DoctorChecks(unittest.TestCase):
 
     def test_a_wrong_own_address_is_a_warning(self):
         self.facts.environment.own_name_error = "it is no address of this computer"
-        self.expect("bad_own_address", code=EXIT_WARN)
+        self.facts.environment.address_towards_master = "10.0.0.7"
+        fix = self.expect("bad_own_address", code=EXIT_WARN).fix
+        self.assertIn("`unset ROS_HOSTNAME; export ROS_IP=10.0.0.7`", fix)
 
     def test_no_node(self):
         self.without_node()
@@ -216,6 +221,8 @@ class DoctorChecks(unittest.TestCase):
         self.assertIn("`robots: [{name: robot, description: /arm/robot_description}]`", fix)
         self.facts.parameters = {"/arm/robot_description_semantic"}
         self.assertIn("semantic: /arm/robot_description_semantic}]`", self.expect("no_description").fix)
+        self.break_source("obstacle", "")  # it waits for the world, whose frame is the root of the robot
+        self.expect("no_description")
         self.facts.robots[0].candidates = []
         self.assertIn("`rosparam set -t my_robot.urdf /robot_description`", self.expect("no_description").fix)
 
@@ -312,6 +319,8 @@ class DoctorChecks(unittest.TestCase):
         self.facts.robots[0].settings.semantic = "my_srdf"
         self.facts.status.model_warnings = ["robot: parameter 'my_srdf' is not set; it was to hold the SRDF"]
         self.expect("no_srdf", code=EXIT_WARN)
+        self.facts.robots[0].semantic = parse_srdf("<robot>")
+        self.expect("bad_srdf")
 
     # Frames
 
@@ -472,7 +481,9 @@ class DoctorChecks(unittest.TestCase):
     def test_two_publishers_of_frames_are_told_once(self):
         links = (("base", "elbow"), ("elbow", "hand"))
         self.facts.streams += [stream("/other", *each, pose=MOVED) for each in links]
-        self.assertIn("2 frames ('elbow', 'hand') come from /rsp", self.expect("contested_frame").what)
+        finding = self.expect("contested_frame")
+        self.assertIn("2 frames ('elbow', 'hand') come from /rsp", finding.what)
+        self.assertIn("`rosnode kill /other`", finding.fix, "the robot_state_publisher must stay")
 
     def test_two_publishers_that_agree_are_a_warning(self):
         self.facts.streams.append(stream("/other", "base", "elbow"))

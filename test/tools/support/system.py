@@ -151,7 +151,7 @@ class System:
 
     def doctor(self, *arguments):
         """Runs the doctor in the shell. Returns its exit code and its findings."""
-        command = [sys.executable, str(ROOT / "tools/doctor"), "--json", "--listen", "1", "--timeout", "1", *arguments]
+        command = [sys.executable, str(ROOT / "tools/doctor"), "--json", "--listen", "1", *arguments]
         code, output = self.shell.type(" ".join(command))
         return code, json.JSONDecoder().raw_decode(output, output.index("{"))[0]["findings"]  # bash may add notices
 

@@ -41,9 +41,11 @@ def check(facts: Facts, findings: Findings):
 
 
 def check_sources(facts: Facts, findings: Findings):
+    robot_explained = any(findings.explain(robot.settings.name, ERROR) for robot in facts.robots)
     for source in facts.status.sources:
         if not source.complete:
-            if findings.explain(source.name, ERROR):
+            # Without a reason of its own, the source waits for the world, which may wait for a robot.
+            if findings.explain(source.name, ERROR) or (robot_explained and not source.reason):
                 continue
             reason = source.reason or "; ".join(facts.status.not_ready) or "it says no reason"
             fix = fix_of(facts, source.name, reason)
@@ -140,7 +142,7 @@ def check_models(facts: Facts, findings: Findings):
     warnings = list(facts.status.model_warnings)
     if findings.has("srdf_of_other_robot", "srdf_unknown_links"):
         warnings = [text for text in warnings if "names link" not in text]
-    if findings.has("no_srdf"):
+    if findings.has("no_srdf", "bad_srdf"):  # while an SRDF cannot be read, the warnings of the old model stay
         warnings = [text for text in warnings if "SRDF" not in text]
     warnings = [text for text in warnings if not text.startswith("... and")]  # the end of a list that is cut
     if warnings:
