@@ -11,7 +11,7 @@ namespace {
 
 // As for the box of a shape, 64 units of rounding of all terms are more than the formulas and the composition of poses
 // need together.
-constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
+constexpr double kPlaneRounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 /// Returns the dot product. The order of its operations is fixed, so that every compiler computes the same value.
 double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -23,7 +23,7 @@ HalfSpace halfSpaceOf(const Pose& world_from_plane, double padding, const Eigen:
   result.normal = world_from_plane.linear().col(2);
   const Eigen::Vector3d at = world_from_plane.translation();
   result.offset = dot(result.normal, at - origin) + padding;
-  result.rounding = kRounding * (dot(result.normal.cwiseAbs(), at.cwiseAbs() + origin.cwiseAbs()) + padding);
+  result.rounding = kPlaneRounding * (dot(result.normal.cwiseAbs(), at.cwiseAbs() + origin.cwiseAbs()) + padding);
   return result;
 }
 
@@ -47,7 +47,7 @@ double distance(const HalfSpace& half_space, const Aabb& box) {
     sum += term;
     size += std::abs(term);
   }
-  return std::max(0.0, sum - half_space.offset - half_space.rounding - kRounding * size);
+  return std::max(0.0, sum - half_space.offset - half_space.rounding - kPlaneRounding * size);
 }
 
 }  // namespace hgrid

@@ -10,9 +10,9 @@ namespace hgrid {
 namespace {
 
 constexpr double kParallel = 1e-9;  // sine of the angle below which two walls, or a line and a wall, count as parallel
-// [m] Shorter edges are left out. kRounding lengthens edges, so a corner of more than three walls may add short ones.
+// [m] Shorter edges are left out. kWallRounding lengthens edges, so a corner of more than three walls may add short ones.
 constexpr double kShortest = 1e-6;
-constexpr double kRounding = 1e-6;  // [m] a point this far beyond a wall is still in the room
+constexpr double kWallRounding = 1e-6;  // [m] a point this far beyond a wall is still in the room
 
 /// Returns all walls with normals of length 1: first those of the room, then the faces of the box.
 std::vector<RoomWall> unitWalls(const Room& room, const Eigen::AlignedBox3d& within) {
@@ -35,7 +35,7 @@ struct LinePart {
 
   /// Cuts off what is beyond a wall.
   void cut(const RoomWall& wall) {
-    const double rise = wall.normal.dot(direction), left = wall.offset + kRounding - wall.normal.dot(start);
+    const double rise = wall.normal.dot(direction), left = wall.offset + kWallRounding - wall.normal.dot(start);
     if (std::abs(rise) < kParallel) {
       if (left < 0.0) high = -std::numeric_limits<double>::infinity();
     } else if (rise > 0.0) {

@@ -12,7 +12,6 @@
 namespace hgrid {
 namespace {
 
-using Vector = Census::Vector;
 
 constexpr std::size_t kFewInOneRow = 2048;   // boxes; so few may share a row, even if queries must test all its leaves
 constexpr std::size_t kWorthShapes = 4096;   // boxes; for fewer, planning levels by shape takes too long
@@ -22,7 +21,7 @@ constexpr std::size_t kWorthSampling = 256;  // boxes; in a smaller region, the 
 /// Computes the window. On each axis, it contains the middle 98 % of the minimum corners, and it extends beyond each
 /// end by half of their length. It never extends beyond the outermost corner. So one box that is a million meters away
 /// does not make the cells of the others a thousand times too large.
-Window windowOf(const BoxSample& sample, const Vector& lower, const Vector& upper) {
+Window windowOf(const BoxSample& sample, const Census::Vector& lower, const Census::Vector& upper) {
   Window window;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double low = sample.low(axis), high = sample.high(axis), beyond = 0.5 * (high - low);

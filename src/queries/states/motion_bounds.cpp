@@ -8,7 +8,7 @@
 namespace hgrid {
 namespace {
 
-constexpr double kRounding = 1.0 + 1e-5;  // the boxes of the shapes are in floats
+constexpr double kBoxRounding = 1.0 + 1e-5;  // the boxes of the shapes are in floats
 
 /// Returns the distance of a point from an axis through the origin.
 double distanceFromAxis(const Eigen::Vector3d& point, const Eigen::Vector3d& axis) {
@@ -89,7 +89,7 @@ float MotionBounds::find(const std::vector<FourDoubles>& from, const std::vector
     if (i < robot_.counting()) largest = std::max(largest, memory.paths[i * depths_]);
   }
   for (std::size_t i = 0; i < robot_.selfPairs().size(); ++i) largest = std::max(largest, sumOf(i, memory.paths));
-  return roundedUp(largest * kRounding);
+  return roundedUp(largest * kBoxRounding);
 }
 
 void MotionBounds::findPart(std::size_t shape, const HalfPart& part, Memory& memory) const {
@@ -128,11 +128,11 @@ void MotionBounds::findPart(std::size_t shape, const HalfPart& part, Memory& mem
 }
 
 float MotionBounds::reachOf(std::size_t shape, const Memory& memory) const {
-  return roundedUp(memory.part_paths[shape * depths_] * kRounding);
+  return roundedUp(memory.part_paths[shape * depths_] * kBoxRounding);
 }
 
 float MotionBounds::reachOfPair(std::size_t pair, const Memory& memory) const {
-  return roundedUp(sumOf(pair, memory.part_paths) * kRounding);
+  return roundedUp(sumOf(pair, memory.part_paths) * kBoxRounding);
 }
 
 /// Adds the paths of two shapes in the frame of the deepest group that moves both.
