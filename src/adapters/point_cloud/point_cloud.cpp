@@ -12,7 +12,7 @@ namespace hgrid {
 namespace {
 
 /// Where a coordinate is in the bytes of a point, and its type.
-struct Place {
+struct FieldPlace {
   std::uint32_t offset = 0;  // [bytes] from the begin of the point
   bool wide = false;         // true: FLOAT64; false: FLOAT32
 
@@ -30,7 +30,7 @@ struct Place {
   }
 };
 
-Place placeOf(const char* name, const PointCloudFormat& format, const std::string& what) {
+FieldPlace placeOf(const char* name, const PointCloudFormat& format, const std::string& what) {
   const PointField* found = nullptr;
   for (const PointField& field : format.fields) {
     if (field.name != name) continue;
@@ -73,7 +73,8 @@ PointCloud readPointCloud(const PointCloudFormat& format, std::string_view data,
   const std::uint64_t count = std::uint64_t{format.height} * format.width;
   if (count == 0 && data.empty()) return cloud;
   if (format.big_endian) throw Refusal(Code::unsupported, what + " is big-endian; it must be little-endian");
-  const std::array<Place, 3> places{placeOf("x", format, what), placeOf("y", format, what), placeOf("z", format, what)};
+  const std::array<FieldPlace, 3> places{placeOf("x", format, what), placeOf("y", format, what),
+                                         placeOf("z", format, what)};
   checkSizes(format, data, what);
   cloud.points.reserve(count);  // safe: checkSizes() has compared `count` with the size of the data
   for (std::uint32_t row = 0; row < format.height; ++row) {
