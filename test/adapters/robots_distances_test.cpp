@@ -43,13 +43,10 @@ class Trial {
         meter_(narrow_phase_, {kReport, 0.0, 1}) {
     std::vector<std::string> warnings;
     const auto matrix = std::make_shared<const LinkMatrix>(model, rules, warnings);
-    for (const auto& [link, id] : addLinks(scene_, model, matrix)) {
-      Body body = scene_.body(id);
-      scene_.remove(id);
-      for (BodyShape& shape : body.shapes) shape.solid = narrow_phase_->solidOf(shape.shape);
-      links_.emplace_back(link, scene_.add(body));
-      witnesses_.emplace_back(body);
-      tree_.add(body);
+    links_ = addLinks(scene_, model, matrix, narrow_phase_.get());
+    for (const auto& [link, id] : links_) {
+      witnesses_.emplace_back(scene_.body(id));
+      tree_.add(scene_.body(id));
     }
   }
 

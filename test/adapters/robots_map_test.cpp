@@ -36,12 +36,7 @@ class RobotInBuilding {
     model_ = readWith(loader, urdf_);
     std::vector<std::string> warnings;
     const auto matrix = std::make_shared<const LinkMatrix>(model_, LinkRules{}, warnings);
-    for (const auto& [link, id] : addLinks(scene_, model_, matrix)) {
-      Body body = scene_.body(id);
-      scene_.remove(id);
-      for (BodyShape& shape : body.shapes) shape.solid = narrow_phase_->solidOf(shape.shape);
-      links_.emplace_back(link, scene_.add(body));
-    }
+    links_ = addLinks(scene_, model_, matrix, narrow_phase_.get());
     Body map;
     map.name = "map/building";
     map.frame = "world";

@@ -11,6 +11,7 @@
 
 #include "hgrid_proximity/adapters/mesh.h"
 #include "hgrid_proximity/adapters/urdf.h"
+#include "hgrid_proximity/narrow/narrow_phase.h"
 #include "hgrid_proximity/world/scene.h"
 #include "test/support/random.h"
 
@@ -73,9 +74,12 @@ class RandomStates {
 /// axis.
 Pose uniformPose(Random& random, double far);
 
-/// Adds a body `robot/<link>` for each link with a <collision>. @returns the link index and the id of each body
+/// Adds a body `<robot>/<link>` for each link with a <collision>. @returns the link index and the id of each body
+/// @param narrow_phase  makes the solids of the shapes; null: the bodies have no solids, so no distance can be measured
 std::vector<std::pair<std::uint32_t, BodyId>> addLinks(Scene& scene, const RobotModel& model,
-                                                       const std::shared_ptr<const LinkMatrix>& matrix);
+                                                       const std::shared_ptr<const LinkMatrix>& matrix,
+                                                       NarrowPhase* narrow_phase = nullptr,
+                                                       const std::string& robot = "robot");
 
 }  // namespace test
 }  // namespace hgrid
