@@ -41,7 +41,9 @@ class RoomLayer final : public BroadPhase {
   std::size_t size() const override { return below_->size(); }
   void overlappingPairs(std::vector<ProxyPair>& pairs) const override { below_->overlappingPairs(pairs); }
   bool boundedPairs(std::vector<ProxyPair>& pairs) const override { return below_->boundedPairs(pairs); }
+  /// Searches along several segments at once.
   using BroadPhaseReader::along;
+  /// Searches several spheres at once.
   using BroadPhaseReader::overlapping;
   void overlapping(const Aabb& box, std::vector<ProxyId>& found) const override { below_->overlapping(box, found); }
   void overlapping(const Sphere& sphere, std::vector<ProxyId>& found) const override {
