@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <hgrid_proximity/QueryNearest.h>
 #include <hgrid_proximity/Verdict.h>
 
 #include "test/node/support/claims.h"
