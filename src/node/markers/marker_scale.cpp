@@ -9,7 +9,7 @@ namespace hgrid {
 
 MarkerScale scaleOf(const Tick& tick) {
   constexpr double kLeastDiagonal = 0.1;  // [m]
-  constexpr double kStepsOfDiagonal = 8.0, kTextOfStep = 1.0 / 6.0;
+  constexpr double kStepsOfDiagonal = 8.0, kTextOfStep = 1.0 / 5.0;
   Eigen::AlignedBox3d around;
   if (tick.snapshot) {
     const Snapshot& snapshot = *tick.snapshot;
