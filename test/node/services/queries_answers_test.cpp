@@ -79,21 +79,25 @@ TEST_F(QueryAnswers, ASegmentHitsBodiesInOrderAlongIt) {
 }
 
 TEST_F(QueryAnswers, TheSummaryOfANearestBodySaysWhichOneAndHowFar) {
-  msg::QueryNearest::Request request;
-  request.point = xyz(2.35, 0, 0);
-  request.include = {"obstacle/post_*"};
-  EXPECT_EQ(node_->ask(request).answer.summary, "NEAREST: obstacle/post_2 at 0.25 m (1 body listed)");
-  request.limit = 3;
-  EXPECT_EQ(node_->ask(request).answer.summary, "NEAREST: obstacle/post_2 at 0.25 m (3 bodies listed)");
-  request.point.x = 2.05;
-  EXPECT_EQ(node_->ask(request).answer.summary, "NEAREST: obstacle/post_2 at 0 m (3 bodies listed)");
-  request.point.x = 7;
-  request.max_distance = 0.5;
-  EXPECT_EQ(node_->ask(request).answer.summary, "CLEAR: none of the 4 requested bodies is within 0.5 m");
-  request.include.clear();
-  EXPECT_EQ(node_->ask(request).answer.summary, "CLEAR: nothing is within 0.5 m");
-  request.include = {"obstacle/nobody"};
-  EXPECT_TRUE(says(node_->ask(request).answer.summary, "UNKNOWN, because the query was refused: "));
+  msg::QueryNearest query;
+  const auto summary = [&query] {
+    EXPECT_TRUE(ros::service::call(node_->named("query_nearest"), query));
+    return query.response.answer.summary;
+  };
+  query.request.point = xyz(2.35, 0, 0);
+  query.request.include = {"obstacle/post_*"};
+  EXPECT_EQ(summary(), "NEAREST: obstacle/post_2 at 0.25 m (1 body listed)");
+  query.request.limit = 3;
+  EXPECT_EQ(summary(), "NEAREST: obstacle/post_2 at 0.25 m (3 bodies listed)");
+  query.request.point.x = 2.05;
+  EXPECT_EQ(summary(), "NEAREST: obstacle/post_2 at 0 m (3 bodies listed)");
+  query.request.point.x = 7;
+  query.request.max_distance = 0.5;
+  EXPECT_EQ(summary(), "CLEAR: none of the 4 requested bodies is within 0.5 m");
+  query.request.include.clear();
+  EXPECT_EQ(summary(), "CLEAR: nothing is within 0.5 m");
+  query.request.include = {"obstacle/nobody"};
+  EXPECT_TRUE(says(summary(), "UNKNOWN, because the query was refused: "));
 }
 
 TEST_F(QueryAnswers, ARadiusOf0MakesAPointAndEqualEndsMakeASphere) {
