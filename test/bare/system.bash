@@ -31,6 +31,8 @@ make_bare() {
   cp -L /etc/resolv.conf "$2/etc/resolv.conf"
   # debootstrap of Debian 11 and 12 writes no such file; the installer of Debian does, and ROS looks up localhost.
   [[ -e $2/etc/hosts ]] || printf '127.0.0.1 localhost\n' >"$2/etc/hosts"
+  # The system is removed after the test, so dpkg need not wait for the disk after each file.
+  printf 'force-unsafe-io\n' >"$2/etc/dpkg/dpkg.cfg.d/no_waiting"
   cp -L /etc/ssl/certs/ca-certificates.crt "$2/etc/ssl/certs/"  # this machine may trust an authority of its own
 }
 
