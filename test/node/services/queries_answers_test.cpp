@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <hgrid_proximity/QueryNearest.h>
 #include <hgrid_proximity/Verdict.h>
+#include <ros/service.h>
 
 #include "test/node/support/claims.h"
 #include "test/node/support/descriptions.h"
@@ -84,7 +85,7 @@ TEST_F(QueryAnswers, TheSummaryOfANearestBodySaysWhichOneAndHowFar) {
     EXPECT_TRUE(ros::service::call(node_->named("query_nearest"), query));
     return query.response.answer.summary;
   };
-  query.request.point = xyz(2.35, 0, 0);
+  query.request.point.x = 2.35;
   query.request.include = {"obstacle/post_*"};
   EXPECT_EQ(summary(), "NEAREST: obstacle/post_2 at 0.25 m (1 body listed)");
   query.request.limit = 3;
