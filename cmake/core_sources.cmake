@@ -176,6 +176,7 @@ endif()
 
 # A unity build compiles several files as one, because the compiler needs most of its time for the templates of Eigen,
 # which the files have in common.
+#catkin_lint: ignore_once global_var_collision
 set(HGRID_UNITY 36 CACHE STRING "Number of files of the core that are compiled as one; 1 finds a missing #include")
 
 # hgrid_core_options(target root): sets the options for a target that is built from the core's sources. Kernels are
