@@ -34,11 +34,11 @@ std::string ownFolder() {
   return file.substr(0, file.find_last_of('/') + 1);
 }
 
-/// Returns the path of the helper executable that reads meshes. Libraries are in lib/ or, in packages of Debian, in
-/// lib/<architecture>/. Programs are in lib/hgrid_proximity/.
+/// Returns the path of the helper executable that reads meshes. Programs are in lib/hgrid_proximity/, libraries in lib/.
+/// Only in packages of Debian, the nodelet is in lib/<architecture>/ros/.
 std::string meshReader() {
   const std::string here = ownFolder();
-  for (const char* folder : {"", "../hgrid_proximity/"}) {
+  for (const char* folder : {"", "../../hgrid_proximity/"}) {
     const std::string reader = here + folder + "proximity_mesh_reader";
     if (access(reader.c_str(), X_OK) == 0) return reader;
   }
