@@ -13,6 +13,8 @@ function(hgrid_install_python)
     file(READ ${program} text)
     string(REGEX REPLACE "^#![^\n]*" "#!${PYTHON_EXECUTABLE}" text "${text}")
     file(WRITE "${copy}" "${text}")
+    # Removes the file of catkin first: cmake keeps a file that is as old as the one that would replace it.
+    install(CODE "file(REMOVE \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION}/${name}\")")
     install(PROGRAMS "${copy}" DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   endforeach()
 endfunction()
