@@ -4,91 +4,25 @@
 
 #include <ros/node_handle.h>
 
-#include <atomic>
 #include <memory>
-#include <vector>
-
-#include "node/audit/auditor.h"
-#include "node/callback_threads.h"
-#include "node/commons.h"
-#include "node/diagnostics/completeness_log.h"
-#include "node/diagnostics/model_log.h"
-#include "node/diagnostics/node_diagnostics.h"
-#include "node/guard/guard.h"
-#include "node/guard/path_topics.h"
-#include "node/housekeeping.h"
-#include "node/loading/loading.h"
-#include "node/moveit/moveit_interface.h"
-#include "node/publishers/publishers.h"
-#include "node/quick_callbacks.h"
-#include "node/reconfigure/reconfigure_service.h"
-#include "node/services/node_services.h"
-#include "node/state/state_keeper.h"
-#include "node/tick/tick_history.h"
-#include "node/tick/tick_loop.h"
-#include "node/tracks/trackers.h"
 
 namespace hgrid {
 
-/// The node. It creates its parts, connects them, and starts and stops them. Its callbacks run on four groups of
-/// threads, which do not wait for each other:
-///
-/// - the tick thread reads transforms, computes the ticks and publishes them;
-/// - the query threads, as many as ~query_threads says, answer queries from the newest tick; the thread of roscpp that
-///   receives answers short ones itself;
-/// - the batch threads, as many as ~batch_threads says, answer requests with thousands of questions, which may take
-///   seconds;
-/// - the admin thread loads robots and maps, serves requests that change the world, publishes diagnostics and markers.
+class NarrowPhase;
+class NodeParts;
+
+/// The node, as a program, a nodelet or a test runs it. It works on threads of its own until it is destroyed. Who
+/// includes this file need not compile the parts of the node.
 class ProximityNode {
  public:
+  /// @param narrow_phase  measures exact distances; FCL if null
   /// @throws std::invalid_argument with a message that lists every wrong parameter
-  ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
-  /// As above, but measures exact distances with `narrow_phase` instead of FCL.
   ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                std::shared_ptr<NarrowPhase> narrow_phase);
+                std::shared_ptr<NarrowPhase> narrow_phase = nullptr);
+  ~ProximityNode();
 
  private:
-  void stop();
-  /// Returns whether the node or its process is about to end. Long work must then stop. Any thread may call this.
-  bool isEnding() const;
-  void beginTicks();
-  std::vector<TickLoop::Step> tickSteps();
-  std::vector<Chore> chores();
-  PrepareObstacles prepareObstacles() const;
-  std::shared_ptr<const Tick> changeWorld(const TickJobs::Job& job);
-  void takeOver(const Params& params);
-
-  // Each part uses only the parts that are declared above it.
-  std::atomic<bool> stopping_{false};
-  CallbackThreads tick_thread_, query_threads_, batch_threads_, admin_thread_;
-  QuickCallbacks quick_queries_;
-  Commons commons_;
-  QuerySketch sketch_;
-  StateKeeper state_;
-  World world_;  // only the tick thread uses it, except for the functions that all threads may call
-  TickJobs jobs_;
-  Stopwatch stopwatch_;  // only the tick thread uses it
-  Auditor auditor_;
-  TickHistory history_;
-  TickLoop tick_loop_;
-  Publishers publishers_;
-  CompletenessLog completeness_log_;
-  ModelLog model_log_;
-  Loading loading_;
-  Guard guard_;
-  PathTopics path_topics_;
-  NodeServices services_;
-  MoveItInterface moveit_;
-  Trackers trackers_;
-  NodeDiagnostics diagnostics_;
-  ChorePace marker_pace_;  // only the admin thread uses it
-  Housekeeping housekeeping_;
-  ReconfigureService reconfigure_;
-  /// Stops all threads before any part is destroyed, also if the constructor throws after some threads were started.
-  struct StopsThreads {
-    ProximityNode& node;
-    ~StopsThreads() { node.stop(); }
-  } stops_threads_{*this};
+  std::unique_ptr<NodeParts> parts_;
 };
 
 }  // namespace hgrid
