@@ -23,7 +23,7 @@ Value tracker(const std::string& type) {
                {"type", type},
                {"shapes", list({dict({{"type", "capsule"}, {"height", 1.0}, {"radius", 0.3}})})},
                {"max_speed", 2.0},
-               {"forget", 0.5},
+               {"forget", 2.0},
                {"max_tracks", 20}});
 }
 
@@ -33,7 +33,7 @@ class Tracks : public ::testing::Test {
   /// Starts the node. @param publishes  whether the test will publish what the node expects
   void start(const std::string& type, bool publishes = true) {
     NodeSetup setup;
-    // On a busy machine, messages may be late. LOST comes after 1 s, and the track ends 0.5 s later.
+    // On a busy machine, messages may be late. LOST comes after 1 s, and the track ends 2 s later.
     setup.params = dict({{"tracks", list({tracker(type)})},
                          {"late_after", 1.0},
                          {"stale_after", 1.0},
