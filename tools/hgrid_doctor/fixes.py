@@ -86,14 +86,18 @@ def publish_frame(parent: str, child: str) -> str:
 
 
 def state_publisher_command(facts: Facts, robot: RobotFacts) -> str:
-    """Starts a robot_state_publisher that finds the description of the robot. Its name differs from others."""
+    """Starts a robot_state_publisher that finds the description of the robot. Its name differs from others.
+
+    Versions 1.15.0 and 1.15.1, as in Debian 11, ignore _tf_prefix: with them, the links of the description need the
+    prefix in their names."""
     key = robot.key or robot.settings.description
     namespace, _, name = key.rpartition("/")
     place = f" robot_description:={key}" if name != "robot_description" else f" __ns:={namespace}" if namespace else ""
     alone = len(facts.robots) == 1 or " __ns:=" in place
     own_name = "" if alone else f" __name:={robot.settings.name}_state_publisher"
     prefix = f" _tf_prefix:={robot.settings.tf_prefix}" if robot.settings.tf_prefix else ""
-    return f"`rosrun robot_state_publisher robot_state_publisher{place}{own_name}{prefix}`"
+    older = " (robot_state_publisher 1.15.0 and 1.15.1 ignore _tf_prefix; newer ones do not)" if prefix else ""
+    return f"`rosrun robot_state_publisher robot_state_publisher{place}{own_name}{prefix}`{older}"
 
 
 def play_joints(topic: str, joints: Set[str]) -> str:
