@@ -112,7 +112,10 @@ class _Line:
     def close(self):
         """Closes the connection, and so ends the call in progress."""
         self._requests.put(None)
-        self._proxy.close()
+        try:
+            self._proxy.close()
+        except AttributeError:  # rospy 1.15 (Debian 11) closes a connection twice if the other end closed it, too
+            pass
 
     def _work(self):
         while True:
