@@ -118,7 +118,9 @@ class Builder : public YAML::EventHandler {
 XmlRpcValue valueOfYaml(const std::string& text, const std::string& what) {
   Builder builder(what);
   try {
-    std::istringstream in(text);
+    // yaml-cpp 0.6.3 (Debian 11) does not end, and allocates more and more memory, for some texts whose last line breaks
+    // off. With an end of the line, it refuses them.
+    std::istringstream in(text + "\n");
     YAML::Parser parser(in);
     if (!parser.HandleNextDocument(builder)) throw Refusal(Code::parse, what + " is empty");
     if (parser) throw Refusal(Code::parse, what + " has more than one document; remove what follows '---' or '...'");
