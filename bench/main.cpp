@@ -60,6 +60,7 @@ int run(const Options& options) {
   part("ageing", true, runAgeing);
   part("threads", true, runThreads);
   part("queries", true, runQueries);
+  part("single", true, runSingle);
   part("book", false, runBook);
   part("maps", !options.quick, runMaps);
   part("meshes", true, runMeshes);

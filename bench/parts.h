@@ -36,6 +36,9 @@ void runQueries(const Options& options, std::vector<Record>& records);
 void runQueriesOf(const std::vector<QueryPeerKind>& kinds, std::size_t n, const Options& options,
                   std::vector<Record>& records);
 
+/// Measures changes of one box at a time, with and without a question about it after each.
+void runSingle(const Options& options, std::vector<Record>& records);
+
 /// Compares the partitions of the book (doc/partitions.md) with HGrid: pairs, queries, loading and memory. It does not
 /// use the libraries of other projects.
 void runBook(const Options& options, std::vector<Record>& records);

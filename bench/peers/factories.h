@@ -25,6 +25,7 @@ std::unique_ptr<Peer> makeOdeSap();
 std::unique_ptr<Peer> makeCgal();
 std::unique_ptr<Peer> makeBoostRtree();
 std::unique_ptr<Peer> makeEmbree();
+std::unique_ptr<Peer> makeBox3d();
 
 /// Returns whether this processor can run the peer of makeSweep().
 bool canSweep();

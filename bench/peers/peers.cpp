@@ -36,6 +36,9 @@ std::vector<PeerKind> all() {
 #ifdef HGRID_BENCH_EMBREE
   kinds.push_back({"Embree rtcCollide", "default", kMillion, kMillion, makeEmbree});
 #endif
+#ifdef HGRID_BENCH_BOX3D
+  kinds.push_back({"Box3D", "default", kMillion, kMillion, makeBox3d});
+#endif
   return kinds;
 }
 
@@ -65,6 +68,9 @@ const std::vector<std::string>& missingPeers() {
 #endif
 #ifndef HGRID_BENCH_EMBREE
       "Embree",
+#endif
+#ifndef HGRID_BENCH_BOX3D
+      "Box3D (--box3d DIR)",
 #endif
 #ifndef HGRID_BENCH_OCTOMAP
       "OctoMap",
