@@ -9,9 +9,9 @@ namespace hgrid {
 namespace {
 
 /// In the order of the enumeration.
-constexpr const char* kNames[] = {"hgrid",     "hashed_grid",  "bucket_grid",  "array_grid",
-                                  "bit_grid",  "mirtich_grid", "loose_octree", "kd_tree",
-                                  "tree_grid", "sweep_lists",  "sweep_array"};
+constexpr const char* kNames[] = {"hgrid",      "hashed_hgrid", "hashed_grid",  "bucket_grid",
+                                  "array_grid", "bit_grid",     "mirtich_grid", "loose_octree",
+                                  "kd_tree",    "tree_grid",    "sweep_lists",  "sweep_array"};
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include "broadphase/book/bit_grid.h"
 #include "broadphase/book/bucket_grid.h"
 #include "broadphase/book/hashed_grid.h"
+#include "broadphase/book/hashed_hgrid.h"
 #include "broadphase/book/kd_tree.h"
 #include "broadphase/book/loose_octree.h"
 #include "broadphase/book/mirtich_grid.h"
@@ -34,6 +35,8 @@ std::unique_ptr<BroadPhase> makeBroadPhase(const BroadPhaseOptions& options) {
   switch (options.type) {
     case BroadPhaseType::hgrid:
       return makeHGrid(options);
+    case BroadPhaseType::hashed_hgrid:
+      return std::make_unique<book::HashedHGrid>();
     case BroadPhaseType::hashed_grid:
       return std::make_unique<book::HashedGrid>();
     case BroadPhaseType::bucket_grid:

@@ -18,6 +18,7 @@
 #include "src/broadphase/book/bit_grid.h"
 #include "src/broadphase/book/bucket_grid.h"
 #include "src/broadphase/book/hashed_grid.h"
+#include "src/broadphase/book/hashed_hgrid.h"
 #include "src/broadphase/book/kd_tree.h"
 #include "src/broadphase/book/loose_octree.h"
 #include "src/broadphase/book/mirtich_grid.h"
@@ -35,9 +36,9 @@ namespace test {
 /// The tests are compiled twice, to keep the time of one compilation short: for these types in broadphase_test, and
 /// with HGRID_TEST_PARTITIONS for the partitions of the book in partitions_test.
 #ifdef HGRID_TEST_PARTITIONS
-using AllBroadPhases =
-    ::testing::Types<book::HashedGrid, book::BucketGrid, book::ArrayGrid, book::BitGrid, book::MirtichGrid,
-                     book::LooseOctree, book::KdTree, book::TreeGrid, book::SweepLists, book::SweepArray>;
+using AllBroadPhases = ::testing::Types<book::HashedHGrid, book::HashedGrid, book::BucketGrid, book::ArrayGrid,
+                                        book::BitGrid, book::MirtichGrid, book::LooseOctree, book::KdTree,
+                                        book::TreeGrid, book::SweepLists, book::SweepArray>;
 /// Returns how many random worlds each type is tested with. By default the partitions get a tenth of what HGrid gets.
 inline int worldsToTest() {
   return std::min(countFromEnvironment("HGRID_TEST_WORLDS", 10000),

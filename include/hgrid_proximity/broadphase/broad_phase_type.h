@@ -14,6 +14,7 @@ namespace hgrid {
 /// describes and compares them.
 enum class BroadPhaseType {
   hgrid,         ///< HGrid: hierarchical grid with SIMD instructions and threads
+  hashed_hgrid,  ///< the book's hierarchical grid: all levels in one hash table (section 7.2.1)
   hashed_grid,   ///< uniform grid in a hash table with open addressing (section 7.1.3)
   bucket_grid,   ///< uniform grid in hash buckets without keys (section 7.1.3)
   array_grid,    ///< uniform grid of static boxes in one array (section 7.1.4); a change builds it again

@@ -61,10 +61,10 @@ TEST(ParamErrors, AWrongMapOptionIsNamed) {
 }
 
 TEST(ParamErrors, AnUnknownTypeOfBroadPhaseIsNamed) {
-  expectRefused(
-      dict({{"broadphase", dict({{"type", "octree"}})}}),
-      "~broadphase/type is 'octree'; it must be one of hgrid, hashed_grid, bucket_grid, array_grid, bit_grid, "
-      "mirtich_grid, loose_octree, kd_tree, tree_grid, sweep_lists, sweep_array");
+  expectRefused(dict({{"broadphase", dict({{"type", "octree"}})}}),
+                "~broadphase/type is 'octree'; it must be one of hgrid, hashed_hgrid, hashed_grid, bucket_grid, "
+                "array_grid, bit_grid, "
+                "mirtich_grid, loose_octree, kd_tree, tree_grid, sweep_lists, sweep_array");
   EXPECT_EQ(refusalOf(dict({{"broadphase", dict({{"type", "kd_tree"}})}})), "");
 }
 
