@@ -18,6 +18,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/book/bucket_grid.cpp
   src/broadphase/book/cell_scale.cpp
   src/broadphase/book/hashed_grid.cpp
+  src/broadphase/book/hashed_hgrid.cpp
   src/broadphase/book/kd_nodes.cpp
   src/broadphase/book/kd_tree.cpp
   src/broadphase/book/loose_octree.cpp
@@ -45,6 +46,7 @@ set(HGRID_CORE_SOURCES
   src/broadphase/hgrid/layer.cpp
   src/broadphase/hgrid/layer_plan.cpp
   src/broadphase/hgrid/layer_sort.cpp
+  src/broadphase/hgrid/loose_boxes.cpp
   src/broadphase/hgrid/nearest.cpp
   src/broadphase/hgrid/occupancy.cpp
   src/broadphase/hgrid/pair_collection.cpp

@@ -249,7 +249,7 @@ class FieldWork {
   DistanceField field_;
 };
 
-void checkLength(double length, const char* what) {
+void requireLength(double length, const char* what) {
   if (length > 0.0 && length <= kQueryReach) return;
   throw Refusal(Code::out_of_range, std::string(what) + " is " + text(length) +
                                         " m; it must be greater than 0 and at most " + text(kQueryReach) + " m");
@@ -261,8 +261,8 @@ DistanceField distanceField(const Snapshot& snapshot, const Lattice& lattice, co
                             NarrowPhase& narrow_phase, const QueryScope& scope) {
   const DefaultFloatEnvironment environment;
   checkScope(snapshot, scope);
-  checkLength(lattice.resolution, "the resolution");
-  checkLength(request.max_distance, "max_distance");
+  requireLength(lattice.resolution, "the resolution");
+  requireLength(request.max_distance, "max_distance");
   constexpr std::uint64_t kMostPoints = 1u << 30;
   const std::uint64_t row = lattice.count[0], layer = row * lattice.count[1];
   if (layer > kMostPoints || layer * lattice.count[2] > kMostPoints) {

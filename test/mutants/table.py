@@ -22,6 +22,7 @@ SEARCH_TASKS = "broadphase/hgrid/search_tasks.cpp"
 BOUNDS_TREE = "broadphase/hgrid/bounds_tree.cpp"
 COLLECTION = "broadphase/hgrid/pair_collection.cpp"
 HGRID = "broadphase/hgrid/hgrid.cpp"
+LOOSE = "broadphase/hgrid/loose_boxes.cpp"
 NEAREST = "broadphase/hgrid/nearest.cpp"
 QUERIES = "broadphase/hgrid/queries.cpp"
 SCENE = "world/scene.cpp"
@@ -166,7 +167,7 @@ CORE = [
     ("no box is outside the window", "broadphase/hgrid/box_sample.cpp",
      "low_[axis] = lowest[size_ / 100]", "low_[axis] = lowest[0]"),
     ("a tree of a layer is used after a box was withdrawn", LAYER,
-     "++changes_;\n  // The minimum", "// The minimum"),
+     "++changes_;\n  ++withdrawn_;", "++withdrawn_;"),
     ("a line is tested in a tree without room for rounding", TREE_BODY,
      "(around + (1e-6f * length + 6.1e-8f * __builtin_fabsf(start[i])))", "around"),
     ("the start of a line is rounded without room for it in a tree", TREE_BODY,
@@ -174,7 +175,27 @@ CORE = [
     ("a sphere is tested in a tree without room for rounding", TREE_BODY,
      "2.5e-7f * __builtin_fabsf(numbers[i])", "0.0f * numbers[i]"),
     ("a change of a loose box leaves the trees valid", "broadphase/hgrid/engine.h",
-     " + layers[kLoose].changes()", ""),
+     " + changesOf(kLoose)", ""),
+    ("a search for pairs does not sort the table", PAIRS,
+     "  sortLoose();\n", ""),
+    ("a bulk move forgets the boxes of the table", HGRID,
+     "  if (ids.empty()) return;\n  e.unhash();\n", "  if (ids.empty()) return;\n"),
+    ("a box that takes the place of another keeps its old place", ENGINE,
+     "if (singles.remove(place)) positions()[singles.idAt(place)] = place;", "singles.remove(place);"),
+    ("the layer keeps the boxes of a table that became empty", ENGINE,
+     "    if (!isHashed()) emptyLooseLayer();\n", ""),
+    ("a layer in which only some boxes are withdrawn is not searched", "broadphase/hgrid/layer.h",
+     "return withdrawn_ == count_;", "return withdrawn_ != 0 || count_ == 0;"),
+    ("a query of the table reaches too little beyond its sides", LOOSE,
+     "const double reach = 0.5 * level.longest;", "const double reach = 0.4 * level.longest;"),
+    ("a box is found once for each cell in its bucket", LOOSE,
+     " && entry.cell == cell && levelOf(place) == level", ""),
+    ("a bucket takes any number of boxes", LOOSE,
+     ".count < kMostInBucket", ".count < 1000000"),
+    ("the bounds of a level do not follow a box that moves in its cell", LOOSE,
+     "  entry.box = box;\n  extend(level, box);", "  entry.box = box;"),
+    ("cells near the end of a slice are not visited", LOOSE,
+     "(slice + 1 + 1e-6) * edge", "(slice + 0.5) * edge"),
     ("a line of step -0 enters a box of a tree where it leaves it", TREE_BODY,
      "line->inverse[i] < 0.0f", "step[i] < 0.0f"),
     ("a node with many nodes below has only one block", "broadphase/hgrid/query_tree.cpp",

@@ -10,8 +10,6 @@
 namespace hgrid {
 namespace {
 
-constexpr std::size_t kMostLoose = 64;  // if there are more loose boxes, they join the moving boxes
-
 // For each moving box, a search for pairs visits two or three layers. So if more than a quarter of all boxes moves, it
 // is cheaper to sort all boxes.
 constexpr std::size_t kShareOfMoving = 4;
@@ -31,7 +29,7 @@ void makeRoom(std::vector<ProxyId>& ids, std::size_t count) {
 
 }  // namespace
 
-HGrid::Engine::Engine(double finest) : finest_edge(finest) {}
+HGrid::Engine::Engine(double finest) : finest_edge(finest), singles(finest) {}
 
 void HGrid::Engine::throwNotStored(ProxyId id) {
   throw std::invalid_argument("HGrid: box " + std::to_string(id) + " is not stored; insert it first");
@@ -51,6 +49,7 @@ void HGrid::Engine::reserveLayer(LayerNumber layer, std::size_t count) {
 void HGrid::Engine::sortLayer(LayerNumber layer) {
   layers[layer].sort(boxes, finest_edge, machine());
   located[layer] = false;
+  if (layer == kLoose) ++loose_version;
 }
 
 void HGrid::Engine::locate(LayerNumber layer) {
@@ -86,49 +85,38 @@ std::size_t HGrid::Engine::movingWithLoose() const {
   return still_moving + members[kLoose].size();
 }
 
-/// Returns whether the loose boxes must join the moving boxes, because there are too many loose or withdrawn boxes.
-bool HGrid::Engine::settlesLoose(std::size_t loose, std::size_t withdrawn_then, std::size_t stored_then) const {
-  return loose > kMostLoose || withdrawn_then > stored_then;
-}
-
-/// Returns whether all boxes must be sorted when the loose boxes join the moving boxes.
-bool HGrid::Engine::settlesAll(std::size_t moving, std::size_t withdrawn_then, std::size_t stored_then) const {
-  return moving > std::max(kMostLoose, stored_then / kShareOfMoving) || withdrawn_then > stored_then;
-}
-
-void HGrid::Engine::reserveLoose(ProxyId id) {
-  const bool comes = !isStored(id), leaves_layer = !comes && layer_of[id] != kLoose;
-  if (leaves_layer || (!comes && members[kLoose].size() > kMostLoose)) locate(layer_of[id]);
+void HGrid::Engine::reserveLoose(ProxyId id, const Aabb& box) {
+  const bool comes = !isStored(id), leaves_layer = !comes && !isSingle(id);
   const std::size_t stored_then = stored + (comes ? 1 : 0), withdrawn_then = withdrawn + (leaves_layer ? 1 : 0);
-  const std::size_t loose = members[kLoose].size() + (comes || leaves_layer ? 1 : 0);
-  members[kLoose].reserve(std::max(kMostLoose + 1, loose));
-  reserveLayer(kLoose, loose);
-  if (!settlesLoose(loose, withdrawn_then, stored_then)) return;
-  const std::size_t moving = members[kMoving].size() + loose;  // upper limit: some boxes may have been taken out
-  makeRoom(members[kMoving], moving);
-  reserveLayer(kMoving, moving);
-  if (!settlesAll(moving, withdrawn_then, stored_then)) return;
-  std::size_t fixed_boxes = comes && isFixed(id) ? 1 : 0;
-  for (ProxyId other = 0; other < layer_of.size(); ++other) fixed_boxes += layer_of[other] != kAbsent && isFixed(other);
-  reserveLayer(kFixed, fixed_boxes);
-  reserveLayer(kResting, stored_then - fixed_boxes);
+  if (withdrawn_then > stored_then) {
+    sortAll();
+  } else if (!members[kLoose].empty() || !singles.hasRoom(box) || singlesSettle()) {
+    settleLoose();
+  }
+  if (!comes && !isSingle(id)) locate(layer_of[id]);
+  if (positions().size() < layer_of.size()) positions().resize(layer_of.size());
+  singles.reserve(box);
 }
 
 void HGrid::Engine::takeOut(ProxyId id) {
   const LayerNumber from = layer_of[id];
-  const bool sorts = from == kLoose && members[kLoose].size() <= kMostLoose;  // a larger layer takes too long to sort
-  if (!sorts) locate(from);
-  buffers.found_valid = false;
-  if (from == kLoose) members[kLoose].erase(std::find(members[kLoose].begin(), members[kLoose].end(), id));
-  if (sorts) {
-    layers[kLoose].setIds(members[kLoose]);
-    sortLayer(kLoose);
+  if (isSingle(id)) {
+    const std::uint32_t place = positions()[id];
+    if (singles.remove(place)) positions()[singles.idAt(place)] = place;
+    singlesChanged();
+    if (!isHashed()) emptyLooseLayer();
   } else {
+    locate(from);
+    if (from == kLoose) {
+      members[kLoose].erase(std::find(members[kLoose].begin(), members[kLoose].end(), id));
+      ++loose_version;
+    }
     layers[from].withdraw(positions()[id]);
     ++withdrawn;
     moving_changed = moving_changed || from == kMoving;
     kept_dirty = kept_dirty || from <= kResting;
   }
+  buffers.found_valid = false;
   layer_of[id] = kAbsent;
   --stored;
 }
@@ -138,38 +126,84 @@ void HGrid::Engine::putLoose(ProxyId id) {
   layer_of[id] = kLoose;
   fixed_astray = fixed_astray || isFixed(id);
   ++stored;
-  members[kLoose].push_back(id);
-  if (settlesLoose(members[kLoose].size(), withdrawn, stored)) return settleLoose();
-  layers[kLoose].setIds(members[kLoose]);
-  sortLayer(kLoose);
+  positions()[id] = singles.add(id, boxes[id]);
+  singlesChanged();
 }
 
-/// Turns the loose boxes into moving boxes. From the list of moving boxes, removes the boxes that were taken out of the
-/// moving layer.
-void HGrid::Engine::joinLoose() {
-  kept_moving = false;  // kept_dirty is true, so searches leave out the pairs of the moving boxes
-  std::vector<ProxyId>& moving = members[kMoving];
-  moving.erase(std::remove_if(moving.begin(), moving.end(), [this](ProxyId id) { return layer_of[id] != kMoving; }),
-               moving.end());
-  for (const ProxyId id : members[kLoose]) {
-    layer_of[id] = kMoving;
-    moving.push_back(id);
-  }
-  members[kLoose].clear();
-  layers[kLoose].setIds(members[kLoose]);
-  sortLayer(kLoose);
-  moving_changed = false;
+bool HGrid::Engine::moveSingle(ProxyId id, const Aabb& box) {
+  if (!isSingle(id) || singlesSettle() || !singles.move(positions()[id], box)) return false;
+  boxes[id] = box;
+  buffers.found_valid = false;
+  singlesChanged();
+  return true;
+}
+
+void HGrid::Engine::singlesChanged() {
+  loose_sorted = false;
+  ++loose_version;
 }
 
 void HGrid::Engine::settleLoose() {
+  std::vector<ProxyId>& moving = members[kMoving];
+  const std::size_t count =
+      moving.size() + singles.size() + members[kLoose].size();  // upper limit: some boxes may have been taken out
+  if (count > std::max(std::size_t{kMostLoose}, stored / kShareOfMoving)) return sortAll();
+  makeRoom(moving, count);
+  reserveLayer(kMoving, moving.capacity());
   joinLoose();
-  if (settlesAll(members[kMoving].size(), withdrawn, stored)) return sortAll();
-  layers[kMoving].setIds(members[kMoving]);
+  layers[kMoving].setIds(moving);
   sortLayer(kMoving);
 }
 
+/// Turns the loose boxes into moving boxes. From the list of moving boxes, removes the boxes that were taken out of the
+/// moving layer. Allocates nothing if the list of moving boxes has room for the loose ones.
+void HGrid::Engine::joinLoose() {
+  std::vector<ProxyId>& moving = members[kMoving];
+  kept_moving = false;  // kept_dirty is true, so searches leave out the pairs of the moving boxes
+  moving.erase(std::remove_if(moving.begin(), moving.end(), [this](ProxyId id) { return layer_of[id] != kMoving; }),
+               moving.end());
+  const auto join = [&](ProxyId id) {
+    layer_of[id] = kMoving;
+    moving.push_back(id);
+  };
+  std::for_each(members[kLoose].begin(), members[kLoose].end(), join);
+  singles.visitAll([&](ProxyId id, std::uint32_t) { join(id); });
+  members[kLoose].clear();
+  singles.clear();
+  emptyLooseLayer();
+  moving_changed = false;
+}
+
+/// Leaves no boxes in the loose layer. Allocates nothing.
+void HGrid::Engine::emptyLooseLayer() {
+  layers[kLoose].setIds(0);
+  sortLayer(kLoose);
+  loose_sorted = true;
+}
+
+void HGrid::Engine::unhash() {
+  if (!isHashed()) return;
+  sortLoose();
+  members[kLoose].assign(layers[kLoose].ids(), layers[kLoose].ids() + layers[kLoose].size());
+  singles.clear();
+  located[kLoose] = false;
+}
+
+void HGrid::Engine::sortLoose() const {
+  if (loose_sorted.load(std::memory_order_acquire)) return;
+  const std::lock_guard<std::mutex> lock(loose_mutex);
+  if (loose_sorted.load(std::memory_order_relaxed)) return;
+  Workers alone(1);  // another search may use the other threads
+  const Machine machine{loops, &alone, &loose_scratch};
+  layers[kLoose].reserve(singles.size(), boxes.size(), machine);
+  ProxyId* next = layers[kLoose].setIds(singles.size());
+  singles.visitAll([&](ProxyId id, std::uint32_t) { *next++ = id; });
+  layers[kLoose].sort(boxes, finest_edge, machine);
+  loose_sorted.store(true, std::memory_order_release);
+}
+
 void HGrid::Engine::sortAll(bool others) {
-  const bool same = !others && members[kMoving].empty() && members[kLoose].empty() && withdrawn == 0 &&
+  const bool same = !others && members[kMoving].empty() && members[kLoose].empty() && !isHashed() && withdrawn == 0 &&
                     layers[kFixed].size() + layers[kResting].size() == stored;
   std::array<std::size_t, kLayers> counts{};
   if (same) {  // the layers hold the right ids, in a good order
@@ -184,6 +218,8 @@ void HGrid::Engine::sortAll(bool others) {
   if (!same) {
     members[kMoving].clear();
     members[kLoose].clear();
+    if (isHashed()) singles.clear();
+    loose_sorted = true;
     std::array<ProxyId*, kLayers> next{};
     for (const LayerNumber layer : {kFixed, kResting, kMoving, kLoose})
       next[layer] = layers[layer].setIds(counts[layer]);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "broadphase/hgrid/layer.h"
+#include "broadphase/hgrid/loose_boxes.h"
 #include "broadphase/hgrid/query_tree.h"
 #include "broadphase/hgrid/region_search.h"
 #include "broadphase/hgrid/search_tasks.h"
@@ -33,15 +34,18 @@ struct SearchBuffers {
 ///   fixed    boxes that setFixed() names; two fixed boxes never form a pair
 ///   resting  boxes that did not move for a while; the grid keeps their pairs with resting and fixed boxes
 ///   moving   boxes that moved recently; all of them are sorted again when one of them moves
-///   loose    boxes that were inserted or moved one at a time; they are few, because they soon join the moving boxes.
-///            If other boxes move each time, these are the boxes that moved the last time. Most of them then return to
-///            their positions in the resting layer
+///   loose    boxes that were inserted or moved one at a time. They are in a hash table (LooseBoxes), which queries
+///            search directly. The first search for pairs after a change sorts them into this layer, and later they
+///            join the moving boxes. If other boxes move each time, these are the boxes that moved the last time, in
+///            the layer only. Most of them then return to their positions in the resting layer
 ///
 /// "Withdrawn" boxes are still in the arrays of a layer, but searches no longer find them.
 ///
 /// Every change allocates all memory that it needs before it changes a layer. If the allocation fails, the change
 /// throws, and the grid holds the boxes that it held before.
 struct HGrid::Engine {
+  /// If a search for pairs has sorted more loose boxes, they join the moving boxes before the next change.
+  static constexpr std::size_t kMostLoose = 64;
   enum LayerNumber : std::uint8_t { kFixed, kResting, kMoving, kLoose, kLayers, kAbsent };
 
   explicit Engine(double finest);
@@ -58,8 +62,9 @@ struct HGrid::Engine {
   // Functions that change the stored boxes (engine.cpp).
   /// Makes room for a box with this id.
   void grow(ProxyId id);
-  /// Allocates the memory that putLoose() and, if the box is stored, takeOut() need. They allocate nothing.
-  void reserveLoose(ProxyId id);
+  /// Prepares for putLoose() with this box and, if it is stored, for takeOut(): they then allocate nothing. If the
+  /// loose boxes have no room for it, or are too many, they join the other layers. Changes no stored box.
+  void reserveLoose(ProxyId id, const Aabb& box);
   /// Removes a box from its layer and sets its `layer_of` to kAbsent.
   void takeOut(ProxyId id);
   /// Adds a box that is in no layer to the loose boxes.
@@ -106,23 +111,41 @@ struct HGrid::Engine {
   /// call.
   bool movesOthers();
 
-  /// Returns the number of moving and loose boxes.
+  /// Returns the number of moving and loose boxes, if no loose box is in the table.
   std::size_t movingWithLoose() const;
-  bool settlesLoose(std::size_t loose, std::size_t withdrawn_then, std::size_t stored_then) const;
-  bool settlesAll(std::size_t moving, std::size_t withdrawn_then, std::size_t stored_then) const;
-  void joinLoose();
+  /// Whether the loose boxes are in the table, and not in members[kLoose].
+  bool isHashed() const { return singles.size() != 0; }
+  bool isSingle(ProxyId id) const { return layer_of[id] == kLoose && isHashed(); }
+  /// Moves a box that is in the table and may stay there. @returns whether it did
+  bool moveSingle(ProxyId id, const Aabb& box);
+  /// Whether so many boxes of the table were sorted for a search for pairs that they should join the moving boxes.
+  bool singlesSettle() const { return loose_sorted && singles.size() >= kMostLoose; }
+  void singlesChanged();
+  /// Turns the loose boxes into moving boxes, or sorts all boxes if these are too many. If an allocation fails, the
+  /// layers are unchanged.
   void settleLoose();
+  void joinLoose();
+  void emptyLooseLayer();
+  /// Moves the loose boxes from the table to their layer. If an allocation fails, they stay in the table.
+  void unhash();
+  /// Sorts the boxes of the table into the loose layer, where they stay in the table, too. Several threads may call it.
+  void sortLoose() const;
 
   double finest_edge;
   Isa isa = bestIsa();
   const kernels::Kernels* loops = &kernels::of(isa);  // the inner loops for `isa`
   OverlapFilter filter;
   PairBound bound;
-  std::vector<Aabb> boxes;            // the box of each id
-  std::vector<LayerNumber> layer_of;  // the layer of each id; kAbsent if there is no box with this id
-  std::vector<bool> fixed;            // for each id: whether it is fixed; ids beyond the end are not fixed
-  std::array<Layer, kLayers> layers;
-  std::array<std::vector<ProxyId>, kLayers> members;  // ids of the moving boxes and of the loose boxes
+  std::vector<Aabb> boxes;                    // the box of each id
+  std::vector<LayerNumber> layer_of;          // the layer of each id; kAbsent if there is no box with this id
+  std::vector<bool> fixed;                    // for each id: whether it is fixed; ids beyond the end are not fixed
+  mutable std::array<Layer, kLayers> layers;  // sortLoose() changes the loose layer
+  std::array<std::vector<ProxyId>, kLayers> members;  // ids of the moving boxes, and of the loose boxes in no table
+  LooseBoxes singles;                                 // the loose boxes; positions() has their places
+  std::uint64_t loose_version = 1;                    // number of changes of the loose boxes
+  mutable std::atomic<bool> loose_sorted{true};       // whether the loose layer has the boxes of the table
+  mutable std::mutex loose_mutex;                     // protects the sorting by sortLoose()
+  mutable SortScratch loose_scratch;                  // used by sortLoose() only
   std::array<bool, kLayers> located{};                // whether positions() is valid for the boxes of a layer
   bool fixed_astray = false;                          // whether some fixed boxes are in the loose or moving layer
   bool moving_changed = false;                        // whether some boxes of the moving layer were withdrawn
@@ -159,13 +182,16 @@ struct HGrid::Engine {
   // Trees for queries (queries.cpp). A tree is valid if its layer has not changed since it was built.
   /// Builds a tree for each layer that has boxes but no valid tree.
   void prepareQueries() const;
+  /// Returns the number of changes of the boxes of a layer. Those of the loose layer are counted apart, because a
+  /// search may sort this layer without a change of its boxes.
+  std::uint64_t changesOf(std::size_t layer) const { return layer == kLoose ? loose_version : layers[layer].changes(); }
   /// Returns the tree of a layer; null if there is no valid one.
   const QueryTree* treeOf(std::size_t layer) const {
-    return tree_changes[layer].load(std::memory_order_acquire) == layers[layer].changes() ? &trees[layer] : nullptr;
+    return tree_changes[layer].load(std::memory_order_acquire) == changesOf(layer) ? &trees[layer] : nullptr;
   }
   /// Returns the number of changes of all layers.
   std::uint64_t changes() const {
-    return layers[kFixed].changes() + layers[kResting].changes() + layers[kMoving].changes() + layers[kLoose].changes();
+    return changesOf(kFixed) + changesOf(kResting) + changesOf(kMoving) + changesOf(kLoose);
   }
   /// Returns whether each layer that has boxes has a valid tree. Then `prepared` names these layers.
   bool isPrepared() const { return prepared_changes.load(std::memory_order_acquire) == changes(); }

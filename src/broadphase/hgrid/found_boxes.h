@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "broadphase/hgrid/layer.h"
+#include "broadphase/hgrid/loose_boxes.h"
 #include "broadphase/hgrid/position_writer.h"
 #include "broadphase/hgrid/query_tree.h"
 #include "hgrid_proximity/geometry/segment.h"
@@ -88,6 +89,17 @@ inline void searchLayer(const kernels::Kernels& loops, const Layer& layer, const
   if (layer.occupancy().mayTouch(line)) loops.along(&levels, &line, sink);
 }
 
+// Each searchSingles() searches the table of the loose boxes, and writes places.
+inline void searchSingles(const LooseBoxes& boxes, const kernels::Box& query, kernels::PositionSink* sink) {
+  boxes.overlapping(query, sink);
+}
+inline void searchSingles(const LooseBoxes& boxes, const Sphere& query, kernels::PositionSink* sink) {
+  boxes.overlapping(boxOf(query), sink);
+}
+inline void searchSingles(const LooseBoxes& boxes, const Segment& query, kernels::PositionSink* sink) {
+  boxes.along(lineOf(query), sink);
+}
+
 // The functions for queries into empty space are inlined and those for all others are not, because calls and what they
 // need would take a part of the time.
 
@@ -103,13 +115,19 @@ inline __attribute__((always_inline)) bool visitTrees(const Engine& engine, cons
   return true;
 }
 
-/// Searches each layer: its tree if there is a valid one, else its levels.
+/// Searches each layer: its tree if there is a valid one, else its levels. Searches the table in place of the loose
+/// layer if the loose boxes are in it.
 template <class Engine, class Query, class Visit>
 __attribute__((noinline)) void visitLayers(const Engine& engine, const Query& query, const Visit& visit) {
   for (std::size_t number = 0; number < engine.layers.size(); ++number) {
-    const Layer& layer = engine.layers[number];
-    if (layer.size() == 0) continue;
     PositionWriter writer;
+    if (number == Engine::kLoose && engine.isHashed()) {
+      searchSingles(engine.singles, query, writer.sink());
+      if (writer.size() != 0) visit(engine.singles, writer);
+      continue;
+    }
+    const Layer& layer = engine.layers[number];
+    if (layer.isEmpty()) continue;
     const QueryTree* const tree = engine.treeOf(number);
     if (tree != nullptr && searchTree(*engine.loops, tree->view(), query, writer.sink())) {
       if (writer.size() != 0) visit(*tree, writer);
@@ -121,7 +139,8 @@ __attribute__((noinline)) void visitLayers(const Engine& engine, const Query& qu
 }
 
 /// Calls visit(boxes, places) for each layer in which a search finds boxes. `boxes` is a Layer and the places are
-/// positions, or it is a QueryTree and they are slots. Both have the functions boxAt(place) and idAt(place).
+/// positions, or it is a QueryTree and they are slots, or it is LooseBoxes. All of them have the functions boxAt(place)
+/// and idAt(place).
 /// @param query  a box, a sphere or a segment. The search may find a few boxes more than those that touch it
 template <class Engine, class Query, class Visit>
 inline __attribute__((always_inline)) void visitFound(const Engine& engine, const Query& query, const Visit& visit) {

@@ -127,7 +127,7 @@ void HGrid::insert(ProxyId id, const Aabb& box) {
   if (e.isStored(id))
     throw std::invalid_argument("HGrid: box " + std::to_string(id) + " is already stored; change it with update()");
   e.grow(id);
-  e.reserveLoose(id);
+  e.reserveLoose(id, box);
   e.boxes[id] = box;
   e.putLoose(id);
 }
@@ -137,7 +137,8 @@ void HGrid::update(ProxyId id, const Aabb& box) {
   Engine& e = *engine_;
   e.requireStored(id);
   if (e.boxes[id] == box) return;  // exact comparison: a tolerance would ignore small moves
-  e.reserveLoose(id);
+  if (e.moveSingle(id, box)) return;
+  e.reserveLoose(id, box);
   e.takeOut(id);
   e.boxes[id] = box;
   e.putLoose(id);
@@ -159,6 +160,7 @@ void HGrid::update(const std::vector<ProxyId>& ids, const std::vector<Aabb>& box
   Engine& e = *engine_;
   e.requireValid(ids, boxes);
   if (!ids.empty()) e.grow(ids.back());
+  e.unhash();
   try {
     e.replace(ids, boxes);
   } catch (...) {
@@ -208,6 +210,7 @@ void HGrid::move(const std::vector<ProxyId>& ids, const std::vector<Aabb>& boxes
   e.requireValid(ids, boxes);
   for (const ProxyId id : ids) e.requireStored(id);
   if (ids.empty()) return;
+  e.unhash();
   e.moved = ids;
   for (std::size_t i = 0; i < ids.size(); ++i) e.boxes[ids[i]] = boxes[i];
   try {
@@ -251,6 +254,7 @@ std::size_t HGrid::bytes() const {
   for (const Layer& layer : e.layers) sum += layer.bytes();
   const std::lock_guard<std::mutex> lock(e.tree_mutex);  // another thread may build trees
   for (const QueryTree& tree : e.trees) sum += tree.bytes();
+  sum += e.singles.bytes();
   for (const std::vector<ProxyId>& ids : e.members) sum += ids.capacity() * sizeof(ProxyId);
   return sum;
 }
@@ -268,7 +272,14 @@ void HGrid::checkInvariants() const {
   }
   require(stored == e.stored, "size() is the number of stored boxes");
   std::vector<bool> seen(e.layer_of.size());
+  e.singles.checkInvariants();
+  e.singles.visitAll([&](ProxyId id, std::uint32_t place) {
+    ++in_layers;
+    require(e.layer_of[id] == Engine::kLoose && e.positions()[id] == place, "a box of the table is loose");
+    require(e.boxes[id] == e.singles.boxAt(place), "the table has the coordinates of its boxes");
+  });
   for (std::size_t number = 0; number < e.layers.size(); ++number) {
+    if (number == Engine::kLoose && e.isHashed()) continue;
     const Layer& layer = e.layers[number];
     layer.checkInvariants(e.boxes);
     if (layer.size() > 0 && e.treeOf(number) != nullptr) e.treeOf(number)->checkInvariants(layer);

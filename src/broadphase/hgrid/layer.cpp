@@ -97,6 +97,7 @@ void Layer::point() {
 
 void Layer::withdraw(std::uint32_t position) {
   ++changes_;
+  ++withdrawn_;
   // The minimum corner remains, because pairsWithin() computes the row of the position from it. If the minimum corner
   // changed, pairsWithin() would search beyond that row.
   for (std::size_t axis = 3; axis < 6; ++axis) bounds_[axis * stride_ + position] = kNothing;
@@ -105,6 +106,7 @@ void Layer::withdraw(std::uint32_t position) {
 bool Layer::putBack(std::uint32_t position, const Aabb& box) {
   if (!isWithdrawn(position) || !fits(position, box)) return false;
   ++changes_;
+  --withdrawn_;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     bounds_[axis * stride_ + position] = box.min[static_cast<int>(axis)];
     bounds_[(axis + 3) * stride_ + position] = box.max[static_cast<int>(axis)];

@@ -75,6 +75,8 @@ class Layer {
   std::vector<std::uint32_t>& spare() { return other_ids_; }
 
   std::size_t size() const { return count_; }  ///< number of boxes, withdrawn boxes included
+  /// Returns whether there is nothing to find: no box, or only withdrawn boxes.
+  bool isEmpty() const { return withdrawn_ == count_; }
   /// Returns the id of the box at each position.
   const ProxyId* ids() const { return ids_.data(); }
   ProxyId idAt(std::uint32_t position) const { return ids_[position]; }
@@ -141,6 +143,7 @@ class Layer {
   LayerPlan plan_;
   int sorts_with_plan_ = 0;
   std::size_t count_ = 0;
+  std::size_t withdrawn_ = 0;             // number of withdrawn boxes
   std::vector<ProxyId> ids_, other_ids_;  // by position; a sort reads ids_, writes other_ids_ and swaps the two
   std::vector<float> bounds_;             // [m] six arrays, stride_ floats apart: min x y z, max x y z, by position
   std::size_t stride_ = 0;

@@ -37,6 +37,13 @@ double likelyRadius(const kernels::Level& level, const kernels::Box& leaf, std::
   return std::min(along_row, std::max({0.5 * on_line, 0.5 * on_surface, 0.5 * in_space, 1e-30}));
 }
 
+/// Estimates the radius [m] of a sphere that contains `count` of some boxes, whose number and common bounds are given.
+double likelyRadius(const kernels::Box& bounds, std::size_t boxes, std::size_t count) {
+  double longest = 1e-30;
+  for (int i = 0; i < 3; ++i) longest = std::max(longest, static_cast<double>(bounds.max[i]) - bounds.min[i]);
+  return longest * std::cbrt(static_cast<double>(count) / static_cast<double>(boxes));
+}
+
 /// Returns the distance [m] of a point from a box, or 0 if the point is inside.
 double distanceTo(const kernels::Box& bounds, const Eigen::Vector3d& point) {
   double squared = 0.0;
@@ -65,7 +72,13 @@ struct SphereSearch {
 template <class Engine>
 SphereSearch searchAround(const Engine& engine, const Eigen::Vector3d& point, std::size_t count) {
   SphereSearch search;
-  for (const Layer& layer : engine.layers) {
+  for (std::size_t number = 0; number < engine.layers.size(); ++number) {
+    if (number == Engine::kLoose && engine.isHashed()) {
+      const kernels::Box bounds = engine.singles.around();
+      search.consider(likelyRadius(bounds, engine.singles.size(), count), distanceTo(bounds, point));
+      continue;
+    }
+    const Layer& layer = engine.layers[number];
     layer.bounds().visit([&](const kernels::Box& bounds) { return distanceTo(bounds, point) < search.radius; },
                          [&](std::uint32_t number, const kernels::Box& bounds) {
                            const double within = layer.isOneRow() ? likelyRadius(layer.levels().front(), bounds, count)

@@ -95,6 +95,7 @@ void HGrid::Engine::findKept() {
 
 bool HGrid::Engine::findPairs(std::vector<ProxyPair>& pairs, const PairBound& up_to) const {
   pairs_wanted.store(true, std::memory_order_relaxed);
+  sortLoose();
   std::unique_lock<std::mutex> lock(search_mutex, std::try_to_lock);
   SearchBuffers own;
   SearchBuffers& used_buffers = lock.owns_lock() ? buffers : own;

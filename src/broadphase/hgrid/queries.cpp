@@ -151,7 +151,8 @@ void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<
   batch.begin.resize(queries.size());
   batch.count.resize(queries.size());
   batch.found.clear();
-  const Layer& largest = *std::max_element(engine.layers.begin(), engine.layers.end(),
+  // Not the loose layer: another thread may sort it now.
+  const Layer& largest = *std::max_element(engine.layers.begin(), engine.layers.begin() + Engine::kLoose,
                                            [](const Layer& a, const Layer& b) { return a.size() < b.size(); });
   const auto answerOne = [&](std::size_t i) {
     batch.begin[i] = static_cast<std::uint32_t>(batch.found.size());
@@ -176,10 +177,11 @@ void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<
 void HGrid::Engine::prepareQueries() const {
   const std::lock_guard<std::mutex> lock(tree_mutex);
   if (isPrepared()) return;
+  sortLoose();
   for (std::size_t number = 0; number < layers.size(); ++number) {
     if (layers[number].size() == 0 || treeOf(number) != nullptr) continue;
     trees[number].build(layers[number]);
-    tree_changes[number].store(layers[number].changes(), std::memory_order_release);
+    tree_changes[number].store(changesOf(number), std::memory_order_release);
   }
   prepared_count = 0;  // no query reads it now, because isPrepared() is false
   for (std::size_t number = 0; number < layers.size(); ++number) {
