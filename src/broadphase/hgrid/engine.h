@@ -46,6 +46,8 @@ struct SearchBuffers {
 struct HGrid::Engine {
   /// If a search for pairs has sorted more loose boxes, they join the moving boxes before the next change.
   static constexpr std::size_t kMostLoose = 64;
+  /// Sorting takes as long per box as about so many tests of a box in the table.
+  static constexpr std::size_t kSortingWork = 12;
   enum LayerNumber : std::uint8_t { kFixed, kResting, kMoving, kLoose, kLayers, kAbsent };
 
   explicit Engine(double finest);
@@ -118,8 +120,12 @@ struct HGrid::Engine {
   bool isSingle(ProxyId id) const { return layer_of[id] == kLoose && isHashed(); }
   /// Moves a box that is in the table and may stay there. @returns whether it did
   bool moveSingle(ProxyId id, const Aabb& box);
-  /// Whether so many boxes of the table were sorted for a search for pairs that they should join the moving boxes.
-  bool singlesSettle() const { return loose_sorted && singles.size() >= kMostLoose; }
+  /// Whether the boxes of the table should join the moving boxes: a search for pairs has sorted many of them, or queries
+  /// spent more time in the table than sorting takes.
+  bool singlesSettle() const {
+    return (loose_sorted && singles.size() >= kMostLoose) ||
+           singles.excess() > kSortingWork * (members[kMoving].size() + singles.size());
+  }
   void singlesChanged();
   /// Turns the loose boxes into moving boxes, or sorts all boxes if these are too many. If an allocation fails, the
   /// layers are unchanged.

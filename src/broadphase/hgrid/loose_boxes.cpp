@@ -56,6 +56,7 @@ void LooseBoxes::clear() {
   std::fill(buckets_.begin(), buckets_.end(), Bucket());
   occupied_ = 0;
   size_ = 0;
+  excess_ = 0;
 }
 
 void LooseBoxes::reset(Level& level) {
@@ -236,6 +237,7 @@ void LooseBoxes::writeCells(const Cell& low, const Cell& high, std::uint32_t lev
 
 void LooseBoxes::overlapping(const kernels::Box& query, kernels::PositionSink* sink) const {
   const auto touches = [&](const Aabb& box) { return touchesBox(query, box); };
+  double work = 0.0;
   for (std::uint32_t levels = occupied_; levels != 0; levels &= levels - 1) {
     const auto number = static_cast<std::uint32_t>(__builtin_ctz(levels));
     const Level& level = levels_[number];
@@ -250,11 +252,15 @@ void LooseBoxes::overlapping(const kernels::Box& query, kernels::PositionSink* s
       cells *= 1.0 + high[axis] - low[axis];
     }
     if (cells > static_cast<double>(level.entries.size())) {
+      work += static_cast<double>(level.entries.size());
       writeAll(number, touches, sink);
     } else {
+      work += cells;
       writeCells(low, high, number, touches, sink);
     }
   }
+  const auto units = static_cast<std::uint64_t>(work);
+  if (units > kFreeWork) excess_.fetch_add(units - kFreeWork, std::memory_order_relaxed);
 }
 
 /// Goes through each level by slices of cells along the longest axis of the line (Ericson 2005, 7.4.2), so that it does

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -17,6 +18,9 @@ namespace hgrid {
 ///
 /// The "place" of a box is a number that stays the same until a box is removed, or changes its level. Then the last box
 /// of a level may take the place of another.
+///
+/// Where sizes differ much, a query that is large beside some boxes takes long. excess() adds up that work. The caller
+/// decides when it is worth to keep the boxes in another way.
 ///
 /// Work is bounded for any coordinates. A bucket holds at most kMostInBucket boxes; the caller asks hasRoom(), and if
 /// there is none, it keeps the boxes in another way. On each level, a search looks at the cells of the query, or at all
@@ -49,6 +53,9 @@ class LooseBoxes {
         visit(levels_[level].entries[index].id, placeOf(level, index));
     }
   }
+  /// Returns how much work searches have done since the table was empty, beyond kFreeWork for each of them. The unit is
+  /// the test of one box.
+  std::uint64_t excess() const { return excess_.load(std::memory_order_relaxed); }
   /// Returns a box that contains all boxes, and perhaps boxes that were removed.
   kernels::Box around() const;
   std::size_t bytes() const;
@@ -66,6 +73,7 @@ class LooseBoxes {
   static constexpr double kCellToSide = 2.0;    ///< edge of a cell, divided by the longest side on its level
   static constexpr std::uint32_t kNone = 0xffffffffu;
   static constexpr std::uint32_t kMostInBucket = 64;
+  static constexpr std::uint64_t kFreeWork = 192;
 
   /// Indices of a cell along x, y and z.
   using Cell = std::array<std::int32_t, 3>;
@@ -113,6 +121,7 @@ class LooseBoxes {
   std::uint32_t occupied_ = 0;   // bit i: level i has boxes
   std::vector<Bucket> buckets_;  // their number is a power of two
   std::size_t size_ = 0;
+  mutable std::atomic<std::uint64_t> excess_{0};
 };
 
 }  // namespace hgrid
