@@ -22,11 +22,17 @@
 namespace hgrid {
 
 MarkersPublisher::MarkersPublisher(ros::NodeHandle& private_node, const QuerySketch& sketch)
-    : sketch_(sketch), publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 1)) {}
+    : sketch_(sketch) {
+  auto options = ros::AdvertiseOptions::create<visualization_msgs::MarkerArray>(
+      "markers", 1, [this](const ros::SingleSubscriberPublisher&) { viewer_came_ = true; },
+      ros::SubscriberStatusCallback(), ros::VoidConstPtr(), &immediately_);
+  publisher_ = private_node.advertise(options);
+}
 
 void MarkersPublisher::publish(const Tick& newest, const std::shared_ptr<const MeasuredTick>& measured) {
   const std::size_t viewers = publisher_.getNumSubscribers();
-  const bool new_viewer = viewers > std::exchange(viewers_, viewers);
+  // roscpp counts a viewer before it calls back, so the number alone may tell of one, too.
+  const bool more_viewers = viewers > std::exchange(viewers_, viewers);
   if (viewers == 0) return;
   const ShownTick chosen = shownTick(newest, measured.get(), std::chrono::steady_clock::now());
   if (chosen.tick == nullptr) return;  // RViz removes the markers when their lifetime ends
@@ -37,7 +43,8 @@ void MarkersPublisher::publish(const Tick& newest, const std::shared_ptr<const M
   const auto add = [&array](std::vector<visualization_msgs::Marker> markers) {
     array.markers.insert(array.markers.end(), markers.begin(), markers.end());
   };
-  if (new_viewer || haveOthers(shown)) add({deleteAll(shown)});
+  const bool viewer_came = viewer_came_.exchange(false) || more_viewers;
+  if (haveOthers(shown) || viewer_came) add({deleteAll(shown)});
   add(shapeMarkers(shown, near));
   add({boxMarker(shown, scale), trackMarker(shown, scale)});
   add(stateMarkers(shown, scale));

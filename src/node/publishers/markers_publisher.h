@@ -6,12 +6,14 @@
 #include <ros/publisher.h>
 #include <visualization_msgs/Marker.h>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "node/immediate_callbacks.h"
 #include "node/markers/query_markers.h"
 #include "node/tick/tick.h"
 
@@ -32,6 +34,9 @@ class MarkersPublisher {
   bool haveOthers(const Tick& tick);
 
   const QuerySketch& sketch_;
+  // A viewer came since the last publish(), perhaps after another one had left: then their number is the same.
+  std::atomic<bool> viewer_came_{false};
+  ImmediateCallbacks immediately_;
   ros::Publisher publisher_;
   std::optional<std::vector<visualization_msgs::Marker>> rooms_;  // roomMarkers(); made at the first publish()
   // Values at the last call of publish(): number of subscribers, revision of the structure, epoch.
