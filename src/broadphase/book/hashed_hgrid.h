@@ -41,8 +41,7 @@ namespace book {
 /// - Boxes in place of spheres, and three dimensions, so the level is the fourth term of the hash.
 /// - The index of a cell rounds down everywhere. The listing truncates toward zero when it inserts.
 /// - The finest cells follow from the smallest box, and the number of buckets from the number of boxes. A box that is
-/// too
-///   long for the coarsest level is in a list.
+///   too long for the coarsest level is in a list.
 /// - Lists are linked in both directions, so removal takes constant time, which the book recommends.
 /// - A search looks as far beyond the query as the half side of the longest box that the level can hold. The constant
 ///   EPSILON of the listing would vanish beside large coordinates.
