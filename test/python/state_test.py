@@ -19,7 +19,7 @@ import yaml
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from hgrid_proximity import obstacles, robots, rules
 from hgrid_proximity.client import Proximity
-from hgrid_proximity.errors import ProximityError, Refused
+from hgrid_proximity.errors import NoAnswer, ProximityError, Refused
 from hgrid_proximity.msg import Bodies, Rules, Status
 from moving_ball import Ball
 
@@ -38,7 +38,11 @@ class State(unittest.TestCase):
         rospy.set_param("/proximity/state_folder", str(self.folder / "own"))
         rospy.set_param("/proximity/map/folder", str(pathlib.Path(__file__).resolve().parents[2] / "demo"))
         self.node = None
-        self.start()
+        try:
+            self.start()
+        except BaseException:  # unittest calls no tearDown() then, and the node would hold its name
+            self.tearDown()
+            raise
 
     def tearDown(self):
         self.kill()
@@ -57,6 +61,8 @@ class State(unittest.TestCase):
     def serves(self):
         try:
             return self.proximity.query_sphere((0, 9, 0), 0.1).clear
+        except NoAnswer:  # the master still names the killed node, and another process may have got its port
+            return False
         except Refused as refused:
             if refused.code == "NOT_READY":  # the node has not made its first tick
                 return False
