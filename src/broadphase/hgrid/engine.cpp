@@ -196,8 +196,10 @@ void HGrid::Engine::sortLoose() const {
   Workers alone(1);  // another search may use the other threads
   const Machine machine{loops, &alone, &loose_scratch};
   layers[kLoose].reserve(singles.size(), boxes.size(), machine);
-  ProxyId* next = layers[kLoose].setIds(singles.size());
+  ProxyId* const first = layers[kLoose].setIds(singles.size());
+  ProxyId* next = first;
   singles.visitAll([&](ProxyId id, std::uint32_t) { *next++ = id; });
+  std::sort(first, next);  // the order of the pairs must not depend on the order in the table
   layers[kLoose].sort(boxes, finest_edge, machine);
   loose_sorted.store(true, std::memory_order_release);
 }
