@@ -31,7 +31,7 @@ namespace book {
 /// | `timeStamp`, `tick` | `time_stamps` (Stamps) |
 /// | `Object` with `pNextObject`, `bucket`, `level` | Object |
 /// | `pos`, `radius` of an object | center of the box; half of its longest side |
-/// | `SPHERE_TO_CELL_RATIO`, `CELL_TO_CELL_RATIO` | kSizeToCell, kCellToCell |
+/// | `SPHERE_TO_CELL_RATIO`, `CELL_TO_CELL_RATIO` | kSizeToCell, and 2 in scaleOf() |
 /// | `MIN_CELL_SIZE`, `HGRID_MAX_LEVELS` | finest_, kMostLevels |
 /// | `ComputeHashBucketIndex` | bucketOf() |
 /// | `AddObjectToHGrid`, `RemoveObjectFromHGrid` | added(), removed() |
@@ -59,7 +59,6 @@ class HashedHGrid final : public Partition {
  private:
   static constexpr int kMostLevels = 32;           // one bit each in occupied_levels_
   static constexpr double kSizeToCell = 0.25;      // longest side of a box, at most, as a part of its cell's edge
-  static constexpr double kCellToCell = 2.0;       // edge of a cell as a multiple of the next finer level's
   static constexpr ProxyId kNobody = 0xffffffffu;  // ends a list
 
   /// What the grid knows of one box.

@@ -17,14 +17,9 @@ constexpr float kInfinite = std::numeric_limits<float>::infinity();
 // A cell costs about as much as this number of boxes that a search goes through in order.
 constexpr double kBoxesPerCell = 4.0;
 
-bool touchesBox(const kernels::Box& query, const Aabb& box) {
-  bool both = true;
-  for (int axis = 0; axis < 3; ++axis)
-    both = both & (query.min[axis] <= box.max[axis]) & (box.min[axis] <= query.max[axis]);
-  return both;
-}
-
-bool touchesBox(const kernels::Box& query, const kernels::Box& box) {
+/// @param box  an Aabb or a kernels::Box
+template <class Box>
+bool touchesBox(const kernels::Box& query, const Box& box) {
   bool both = true;
   for (int axis = 0; axis < 3; ++axis)
     both = both & (query.min[axis] <= box.max[axis]) & (box.min[axis] <= query.max[axis]);
@@ -118,6 +113,7 @@ void LooseBoxes::reserve(const Aabb& box) {
 
 bool LooseBoxes::hasRoom(const Aabb& box) const {
   const std::uint32_t level = levelOf(box);
+  if (size_ >= kIndexMask) return false;  // no place is left
   return size_ == 0 || buckets_[bucketOf(cellOf(box, levels_[level]), level)].count < kMostInBucket;
 }
 
