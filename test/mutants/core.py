@@ -18,8 +18,9 @@ TESTS = ["geometry_test", "broadphase_test", "maps_test", "bodies_test", "pairs_
 
 def prepare():
     """Copies the files that the core's tests need, and configures the build of the copy."""
-    for folder in ["cmake", "core", "include", "src", "msg", "test"]:
-        for source in (ROOT / folder).rglob("*"):
+    for name in ["cmake", "core", "include", "src", "msg", "test", "package.xml"]:
+        path = ROOT / name
+        for source in path.rglob("*") if path.is_dir() else [path]:
             target = COPY / source.relative_to(ROOT)
             if source.is_dir() or "mutants" in source.parts[len(ROOT.parts):]:
                 continue
