@@ -56,6 +56,7 @@ int run(const Options& options) {
                                " measured nothing: what it needs is missing, or no option selects it");
   };
   part("pairs", true, runPairs);
+  part("real", true, runReal);
   part("loading", !options.quick, runLoadings);
   part("ageing", true, runAgeing);
   part("threads", true, runThreads);

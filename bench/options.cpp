@@ -52,13 +52,13 @@ bool wanted(const std::vector<std::string>& list, const std::string& item) {
 
 const char* const kUsage =
     "usage: hgrid_bench [--quick] [--json FILE] [--commit TEXT] [--command TEXT]\n"
-    "                   [--part pairs,loading,ageing,threads,queries,single,maps,meshes,history,states,book]\n"
+    "                   [--part pairs,real,loading,ageing,threads,queries,single,maps,meshes,history,states,book]\n"
     "                   [--n 1000,...]\n"
     "                   [--workload uniform,mixed,floor,robots,heaps2,heaps64,fleet,strays,diagonal,levy,rods,giants,\n"
     "                    torus,tower,line,decades,onecell,sizes,building,geb079,cloud]\n"
     "                   [--moving 1,0.1,0.01] [--movers same,changing] [--peer 'hgrid,sweep,FCL DynamicAABBTree,...'] "
     "[--questions 100000]\n"
-    "                   [--limit SECONDS]\n";
+    "                   [--limit SECONDS] [--worlds FOLDER]\n";
 
 bool Options::part(const std::string& name) const { return wanted(parts, name); }
 bool Options::workload(const std::string& name) const { return wanted(workloads, name); }
@@ -91,6 +91,8 @@ Options parsed(int count, const char* const* arguments) {
       options.commit = value;
     } else if (name == "--command") {
       options.command = value;
+    } else if (name == "--worlds") {
+      options.worlds = value;
     } else if (name == "--part") {
       options.parts = split(value);
     } else if (name == "--workload") {

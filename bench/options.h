@@ -20,6 +20,7 @@ struct Options {
   /// Number of different queries of each kind, a multiple of 1,000. If fewer queries were repeated all the time, the
   /// branch predictor of the processor would learn them, and the times would be too short.
   std::size_t questions = 100000;
+  std::string worlds;          ///< folder of recorded worlds; empty: they are left out
   double limit = 0.0;          ///< [s] a peer that finds no pairs for this long is left out; 0: the usual time
   std::vector<double> moving;  ///< fractions of the boxes that move in a frame (time step)
 

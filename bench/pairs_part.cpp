@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
+#include <algorithm>
 #include <cstdio>
+#include <numeric>
+#include <stdexcept>
 
 #include "bench/measure/loading_play.h"
 #include "bench/measure/match.h"
@@ -9,7 +12,9 @@
 #include "bench/parts.h"
 #include "bench/peers/factories.h"
 #include "bench/peers/hgrid_peer.h"
+#include "bench/workload/real_worlds.h"
 #include "bench/workload/workloads.h"
+#include "hgrid_proximity/broadphase/hgrid.h"
 
 namespace hgrid {
 namespace bench {
@@ -56,7 +61,7 @@ std::vector<Run> runsOf(const Options& options, const Setting& setting) {
 }
 
 Record recordOf(const Setting& setting, const Run& run, const Score& score, const std::string& status) {
-  Record record(run.loads ? "loading" : run.age > 0 ? "ageing" : "pairs");
+  Record record(run.loads ? "loading" : run.age > 0 ? "ageing" : setting.kind);
   record.text("peer", run.peer).text("workload", setting.workload).number("n", double(setting.n));
   record.number("moving", setting.moving)
       .text("movers", name(setting.movers))
@@ -97,9 +102,9 @@ std::unique_ptr<Contestant> contestantOf(const Run& run, const Setting& setting,
   return std::make_unique<Contestant>(begin, run.threads);
 }
 
-/// Measures all runs in one setting, prints the results, and appends them to `records`.
-void play(const Options& options, const Setting& setting, const std::vector<Run>& runs, std::vector<Record>& records) {
-  World world(setting.workload, setting.n, setting.moving, setting.movers);
+/// Measures all runs in one world, prints the results, and appends them to `records`.
+void play(const Options& options, const Setting& setting, World& world, const std::vector<Run>& runs,
+          std::vector<Record>& records) {
   Match match;
   for (const Run& run : runs) {
     const bool votes = run.peer != "hgrid" && run.peer != "floor";
@@ -127,7 +132,40 @@ void play(const Options& options, const Setting& setting, const std::vector<Run>
   std::fflush(stdout);
 }
 
+void play(const Options& options, const Setting& setting, const std::vector<Run>& runs, std::vector<Record>& records) {
+  World world(setting.workload, setting.n, setting.moving, setting.movers);
+  play(options, setting, world, runs, records);
+}
+
+/// @throws std::runtime_error if HGrid does not find all pairs that must be found in this world.
+void checkRequired(const RealWorld& real) {
+  std::vector<ProxyId> ids(real.boxes.size());
+  std::iota(ids.begin(), ids.end(), 0);
+  HGrid grid(GridScale::fitting(real.boxes));
+  grid.update(ids, real.boxes);
+  std::vector<ProxyPair> pairs;
+  grid.overlappingPairs(pairs);
+  std::sort(pairs.begin(), pairs.end());
+  for (const ProxyPair& pair : real.required) {
+    if (!std::binary_search(pairs.begin(), pairs.end(), pair)) {
+      throw std::runtime_error("hgrid misses the pair of " + std::to_string(pair.first) + " and " +
+                               std::to_string(pair.second) + " in the world " + real.name);
+    }
+  }
+}
+
 }  // namespace
+
+void runReal(const Options& options, std::vector<Record>& records) {
+  if (options.worlds.empty()) return;
+  for (const RealWorld& real : realWorlds(options.worlds)) {
+    checkRequired(real);
+    const Setting setting{real.name, real.boxes.size(), 1.0, Movers::same, "real"};
+    World world(real.before, real.boxes);
+    play(options, setting, world, runsOf(options, setting), records);
+    std::printf("  hgrid finds all %zu pairs that must be found\n", real.required.size());
+  }
+}
 
 void runPairsOf(const std::vector<PeerKind>& kinds, const Options& options, std::vector<Record>& records) {
   for (const Setting& setting : pairsSettings(options)) {

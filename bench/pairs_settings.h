@@ -17,6 +17,7 @@ struct Setting {
   std::size_t n;
   double moving;  ///< fraction of the boxes that move in a frame
   Movers movers = Movers::same;
+  const char* kind = "pairs";  ///< of its records
 };
 
 /// Returns the settings that the options select. Settings whose results are compared follow each other.

@@ -16,7 +16,9 @@ namespace bench {
 
 /// Measures how long it takes to find all overlapping pairs, for each workload, number of boxes and moving fraction.
 void runPairs(const Options& options, std::vector<Record>& records);
-/// As above, with HGrid and these peers only.
+/// The same for the recorded worlds of the folder `options.worlds`.
+void runReal(const Options& options, std::vector<Record>& records);
+/// As runPairs(), with HGrid and these peers only.
 void runPairsOf(const std::vector<PeerKind>& kinds, const Options& options, std::vector<Record>& records);
 
 /// Measures how long each peer takes to load all boxes and to find the pairs for the first time, for each workload and

@@ -26,6 +26,7 @@ std::unique_ptr<Peer> makeCgal();
 std::unique_ptr<Peer> makeBoostRtree();
 std::unique_ptr<Peer> makeEmbree();
 std::unique_ptr<Peer> makeBox3d();
+std::unique_ptr<Peer> makeJolt();
 
 /// Returns whether this processor can run the peer of makeSweep().
 bool canSweep();

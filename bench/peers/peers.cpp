@@ -39,6 +39,9 @@ std::vector<PeerKind> all() {
 #ifdef HGRID_BENCH_BOX3D
   kinds.push_back({"Box3D", "default", kMillion, kMillion, makeBox3d});
 #endif
+#ifdef HGRID_BENCH_JOLT
+  kinds.push_back({"Jolt", "default", kMillion, kMillion, makeJolt});
+#endif
   return kinds;
 }
 
@@ -71,6 +74,9 @@ const std::vector<std::string>& missingPeers() {
 #endif
 #ifndef HGRID_BENCH_BOX3D
       "Box3D (--box3d DIR)",
+#endif
+#ifndef HGRID_BENCH_JOLT
+      "Jolt (--jolt DIR)",
 #endif
 #ifndef HGRID_BENCH_OCTOMAP
       "OctoMap",

@@ -38,6 +38,7 @@ std::vector<SinglePeerKind> singlePeers();
 // Declared but not defined if the library of the peer was not found.
 std::unique_ptr<SinglePeer> makeBulletSingles();
 std::unique_ptr<SinglePeer> makeBox3dSingles();
+std::unique_ptr<SinglePeer> makeJoltSingles();
 
 }  // namespace bench
 }  // namespace hgrid

@@ -48,6 +48,9 @@ std::vector<SinglePeerKind> singlePeers() {
 #ifdef HGRID_BENCH_BOX3D
   kinds.push_back({"Box3D", makeBox3dSingles});
 #endif
+#ifdef HGRID_BENCH_JOLT
+  kinds.push_back({"Jolt", makeJoltSingles});
+#endif
   return kinds;
 }
 

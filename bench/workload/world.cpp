@@ -31,6 +31,12 @@ World::World(const std::string& workload, std::size_t n, double moving, Movers m
   reset();
 }
 
+World::World(std::vector<Aabb> even, std::vector<Aabb> odd)
+    : n_(even.size()), even_(std::move(even)), odd_(std::move(odd)), moved_(n_) {
+  std::iota(moved_.begin(), moved_.end(), 0);
+  reset();
+}
+
 void World::chooseMoved() {
   const std::size_t group = layout_.bases.empty() ? 1 : Layout::kLinks;
   for (std::size_t i = 0; i < moved_groups_; ++i) std::swap(groups_[i], groups_[i + choice_.below(groups_.size() - i)]);
@@ -57,6 +63,10 @@ void World::place(std::size_t i) {
 
 void World::reset() {
   frame_ = 0;
+  if (!even_.empty()) {
+    boxes_ = even_;
+    return;
+  }
   layout_.walkers = first_walkers_;
   layout_.bases = first_bases_;
   choice_ = Random(kChoiceSeed);
@@ -67,6 +77,10 @@ void World::reset() {
 
 void World::step() {
   ++frame_;
+  if (!even_.empty()) {
+    boxes_ = moved_boxes_ = frame_ % 2 == 0 ? even_ : odd_;
+    return;
+  }
   if (movers_ == Movers::changing) chooseMoved();
   for (const ProxyId number : moved_bases_) layout_.bases[number].walk(frame_);
   moved_boxes_.clear();

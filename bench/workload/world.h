@@ -34,6 +34,9 @@ class World {
   /// @param moving  fraction of the boxes that move in a frame; all boxes of a robot move together
   /// @throws std::invalid_argument if there is no such workload.
   World(const std::string& workload, std::size_t n, double moving, Movers movers = Movers::same);
+  /// A world in which all boxes move to and fro: `even` holds the boxes of all frames with an even number, `odd` the
+  /// others. Both have the same size.
+  World(std::vector<Aabb> even, std::vector<Aabb> odd);
 
   /// Goes back to frame 0.
   void reset();
@@ -52,10 +55,11 @@ class World {
 
   std::size_t n_;
   Layout layout_;
+  std::vector<Aabb> even_, odd_;  // empty if walkers move the boxes
   std::vector<Walker> first_walkers_, first_bases_;
-  Movers movers_;
-  std::size_t moved_groups_;
-  Random choice_;                // selects the groups that move
+  Movers movers_ = Movers::same;
+  std::size_t moved_groups_ = 0;
+  Random choice_{0};             // selects the groups that move
   std::vector<ProxyId> groups_;  // indices of boxes or of robots; those that move come first
   std::uint64_t frame_ = 0;
   std::vector<Aabb> boxes_;

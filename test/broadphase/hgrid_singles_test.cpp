@@ -136,6 +136,58 @@ TEST_F(HGridSingles, InOneCellAreFoundLikeOthers) {
   ASSERT_NO_FATAL_FAILURE(expectRightPairs());
 }
 
+/// Claim: in worlds of all families, boxes that come, move and go one at a time are found after each change, as a scan
+/// of all boxes finds them. HGRID_TEST_SINGLES sets the number of changes.
+TEST(HGridSingleChanges, AreAnsweredLikeByAScan) {
+  constexpr int kInOneWorld = 1000;
+  const int worlds = countFromEnvironment("HGRID_TEST_SINGLES", 1000000) / kInOneWorld;
+  std::size_t hits = 0;
+  for (int world = 0; world < worlds; ++world) {
+    SCOPED_TRACE("world " + std::to_string(world));
+    const auto family = static_cast<Family>(world % kFamilies);
+    std::vector<Aabb> places;
+    for (unsigned seed = 2 * unsigned(world); places.size() < 20; ++seed) {
+      const std::vector<Aabb> more = worldOf(family, seed);
+      places.insert(places.end(), more.begin(), more.end());
+    }
+    Random random{unsigned(world)};
+    HGrid grid;
+    std::vector<Aabb> boxes(places.size());
+    std::vector<bool> stored(places.size());
+    std::vector<ProxyId> found, expected;
+    for (int change = 0; change < kInOneWorld; ++change) {
+      const auto id = ProxyId(random.below(int(boxes.size())));
+      const Aabb place = places[std::size_t(random.below(int(places.size())))];
+      if (!stored[id]) {
+        grid.insert(id, place);
+        stored[id] = true;
+      } else if (random.chance(0.2)) {
+        grid.remove(id);
+        stored[id] = false;
+      } else {
+        grid.update(id, place);
+      }
+      boxes[id] = place;
+      const Aabb& query = random.chance(0.5) ? place : places[std::size_t(random.below(int(places.size())))];
+      expected.clear();
+      for (ProxyId other = 0; other < boxes.size(); ++other) {
+        if (stored[other] && oracleOverlap(query, boxes[other])) expected.push_back(other);
+      }
+      grid.overlapping(query, found);
+      ASSERT_EQ(found, expected) << "change " << change;
+      hits += found.size();
+      if (random.chance(0.005)) sortedPairsOf(grid);  // from here on, boxes are sorted that were hashed before
+    }
+    ASSERT_NO_THROW(grid.checkInvariants());
+    BruteForce oracle;
+    for (ProxyId id = 0; id < boxes.size(); ++id) {
+      if (stored[id]) oracle.insert(id, boxes[id]);
+    }
+    ASSERT_EQ(sortedPairsOf(grid), sortedPairsOf(oracle));
+  }
+  EXPECT_GT(hits, std::size_t(worlds) * kInOneWorld) << "too few hits for a meaningful comparison";
+}
+
 }  // namespace
 }  // namespace test
 }  // namespace hgrid
