@@ -12,7 +12,7 @@ build_packages=(
   catkin cmake g++ make ros-core-dev
   libassimp-dev libconsole-bridge-dev libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev libeigen3-dev
   libfcl-dev libnodelet-dev libnodeletlib-dev libtf2-msgs-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev
-  libyaml-cpp-dev pluginlib-dev python3-setuptools
+  libyaml-cpp-dev pluginlib-dev python3-setuptools rosbash
 )
 demo_packages=(
   python3-diagnostic-msgs python3-geometry-msgs python3-numpy python3-roslaunch python3-rospy python3-rosservice python3-rostopic
@@ -22,7 +22,7 @@ demo_packages=(
 # shellcheck disable=SC2034  # read by scripts/test
 test_packages=(
   "${demo_packages[@]}" catkin-lint libfaketime libgtest-dev libnodeletlib-tools liboctomap-dev libtf2-dev locales
-  python3-dynamic-reconfigure python3-rosbag python3-rosnode python3-rosparam python3-rostest ros-trajectory-msgs rosbash
+  python3-dynamic-reconfigure python3-rosbag python3-rosnode python3-rosparam python3-rostest ros-trajectory-msgs
   rospack-tools
 )
 # shellcheck disable=SC2034  # read by scripts/docs and scripts/test
@@ -64,6 +64,22 @@ quietly() {
   local status=0
   start "$@" >"$scratch/step.log" 2>&1
   wait $! || status=$?
+  unset 'started[-1]'
+  ((status == 0)) || tail -n 60 "$scratch/step.log" >&2
+  return "$status"
+}
+
+# As quietly, for a build. Every half minute, says how far it has come.
+building() {
+  local status=0 seconds=0 percent
+  start "$@" >"$scratch/step.log" 2>&1
+  while kill -0 "${started[-1]}" 2>/dev/null; do
+    sleep 1
+    ((++seconds % 30 == 0)) || continue
+    percent=$(grep -o '^\[ *[0-9]*%' "$scratch/step.log" | tail -n 1 | tr -d '[ ') || true
+    [[ ! $percent ]] || say "  $percent after $((seconds / 60)) min $((seconds % 60)) s"
+  done
+  wait "${started[-1]}" || status=$?
   unset 'started[-1]'
   ((status == 0)) || tail -n 60 "$scratch/step.log" >&2
   return "$status"
@@ -117,8 +133,8 @@ build() {
       fail "cmake failed"
     printf '%s\n' "${options[*]}" >"$out/.options"
   fi
-  say "building in Release mode (takes minutes the first time, seconds later)"
-  quietly cmake --build "$out" -j"$(nproc)" || fail "the build failed"
+  say "building in Release mode (5 to 10 minutes the first time, seconds later)"
+  building cmake --build "$out" -j"$(nproc)" || fail "the build failed"
 }
 
 # Adds the build to ROS_PACKAGE_PATH and PATH. Then ROS finds it.

@@ -41,8 +41,8 @@ def check_own_name(facts: Facts, findings: Findings):
     findings.add(
         "bad_own_address",
         WARN,
-        f"{origin} is '{environment.own_name}': {environment.own_name_error}. Nodes started here cannot be reached by "
-        "it.",
+        f"{origin} is '{environment.own_name}': {environment.own_name_error}. Other computers cannot "
+        "reach nodes that start here by this name.",
         "Announce an address of this computer that the others can reach, in each shell before nodes start: "
         + OWN_ADDRESS.format(environment.address_towards_master or "ADDRESS")
         + ".",
