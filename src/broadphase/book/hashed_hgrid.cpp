@@ -13,8 +13,10 @@ namespace {
 
 thread_local Stamps time_stamps;  // the buckets that the present search of a level has visited
 
-/// A query that every box on a level touches with its center, if the box itself touches the shape.
-/// @param reach  [m] half of the longest side on the level
+/// Returns a larger shape. On each axis, its bounds and its slices contain the center of each box that touches the shape
+/// and whose sides are at most twice the reach. Only bounds and slices do: a corner is farther from the center than the
+/// reach.
+/// @param reach  [m]
 QueryShape grown(const QueryShape& shape, double reach) {
   if (shape.kind() == QueryShape::Kind::segment) {
     Segment segment = shape.segment();
@@ -31,14 +33,14 @@ QueryShape grown(const QueryShape& shape, double reach) {
 
 }  // namespace
 
-int HashedHGrid::levelOf(const Aabb& box) const {
+int HashedHGrid::levelFor(const Aabb& box) const {
   const double side = longestSideInDouble(box);
   int level = 0;
-  if (side > kSizeToCell * finest_) {  // the loop of the listing, in constant time
+  if (side > kSizeToCell * finest_) {  // in place of the loop of the listing
     const double ratio = side / (kSizeToCell * finest_);
-    level = ratio < 0x1p40 ? std::ilogb(ratio) : kMostLevels;
+    level = ratio < 0x1p40 ? std::ilogb(ratio) : kMostLevels;  // so that the exponent is a small number
   }
-  while (level < kMostLevels && side > mostSideOn(level)) ++level;  // at most once more
+  while (level < kMostLevels && side > mostSideOn(level)) ++level;  // at most once
   return std::min(level, kMostLevels);
 }
 
@@ -80,7 +82,7 @@ Partition::Followed HashedHGrid::added(ProxyId id) {
   if (id >= objects_.size()) objects_.resize(id + std::size_t{1});
   Object& object = objects_[id];
   object = Object();
-  object.level = levelOf(box(id));
+  object.level = levelFor(box(id));
   if (object.level == kMostLevels) {
     oversized_.add(id);
     return 8 * oversized_.size() > size() + 64 ? Followed::no : Followed::yes;  // no: coarser cells are needed
@@ -115,7 +117,7 @@ Partition::Followed HashedHGrid::removed(ProxyId id, const Aabb&) {
 
 Partition::Followed HashedHGrid::moved(ProxyId id, const Aabb& from) {
   const Object& object = objects_[id];
-  const int level = levelOf(box(id));
+  const int level = levelFor(box(id));
   if (level == object.level) {
     if (level == kMostLevels) return Followed::yes;
     if (bucketOf(cellOf(box(id), scaleOf(level)), level) == object.bucket) return Followed::yes;
@@ -125,8 +127,8 @@ Partition::Followed HashedHGrid::moved(ProxyId id, const Aabb& from) {
 
 // ---- searches
 
-/// Calls visit(id) for each box of a level that the shape touches, and perhaps for others, on any level. Visits no box
-/// twice.
+/// Calls visit(id) for each box of a level that the shape touches, and perhaps for other boxes of this level. Visits no
+/// box twice.
 template <class Visit>
 void HashedHGrid::visitLevel(const QueryShape& shape, int level, Visit&& visit) const {
   const std::vector<ProxyId>& boxes = on_level_[static_cast<std::size_t>(level)];
@@ -139,12 +141,10 @@ void HashedHGrid::visitLevel(const QueryShape& shape, int level, Visit&& visit) 
       if (objects_[id].level == level) visit(id);
     }
   };
-  // The number of cells must be known before the first of them is visited.
+  // For a segment, it turns out only on the way that there are too many cells. So they are counted before the first of
+  // them is visited.
   const auto limit = static_cast<double>(boxes.size());
-  double cells = 0.0;
-  const bool few = scale.visitRanges(around, CellScale::everywhere(), limit,
-                                     [&](const CellRange& range) { cells += range.count(); });
-  if (!few || cells > limit) {
+  if (!scale.visitRanges(around, CellScale::everywhere(), limit, [](const CellRange&) {})) {
     for (const ProxyId id : boxes) visit(id);
     return;
   }
@@ -155,6 +155,7 @@ void HashedHGrid::visitLevel(const QueryShape& shape, int level, Visit&& visit) 
 void HashedHGrid::findPairs(PairSink& sink) const {
   // Of an oversized box and any other, the oversized one reports the pair.
   for (const ProxyId id : oversized_) {
+    if (sink.isFull()) return;
     for (const ProxyId other : oversized_) {
       if (id < other) sink.tryPair(id, other);
     }
@@ -194,7 +195,7 @@ void HashedHGrid::checkStructure() const {
     for (ProxyId id = object_bucket_[bucket]; id != kNobody; previous = id, id = objects_[id].next, ++listed) {
       require(isStored(id) && objects_[id].bucket == bucket && objects_[id].previous == previous,
               "the list of a bucket is linked in both directions and holds only its boxes");
-      require(objects_[id].level == levelOf(box(id)), "a box is on the level of its size");
+      require(objects_[id].level == levelFor(box(id)), "a box is on the level of its size");
       require(bucket == bucketOf(cellOf(box(id), scaleOf(objects_[id].level)), objects_[id].level),
               "a box is in the bucket of its center");
     }
@@ -208,7 +209,7 @@ void HashedHGrid::checkStructure() const {
       require(object.level == level && object.place == place, "the list of a level holds only its boxes");
     }
   }
-  for (const ProxyId id : oversized_) require(levelOf(box(id)) == kMostLevels, "only an oversized box has no level");
+  for (const ProxyId id : oversized_) require(levelFor(box(id)) == kMostLevels, "only an oversized box has no level");
   require(on_levels == size() && listed + oversized_.size() == size(), "each box is on one level and in one bucket");
 }
 

@@ -31,26 +31,31 @@ namespace book {
 /// | `timeStamp`, `tick` | `time_stamps` (Stamps) |
 /// | `Object` with `pNextObject`, `bucket`, `level` | Object |
 /// | `pos`, `radius` of an object | center of the box; half of its longest side |
-/// | `SPHERE_TO_CELL_RATIO`, `CELL_TO_CELL_RATIO` | kSizeToCell, and 2 in scaleOf() |
+/// | `SPHERE_TO_CELL_RATIO`, `CELL_TO_CELL_RATIO` | kSizeToCell, and the power of 2 in scaleOf() |
 /// | `MIN_CELL_SIZE`, `HGRID_MAX_LEVELS` | finest_, kMostLevels |
 /// | `ComputeHashBucketIndex` | bucketOf() |
 /// | `AddObjectToHGrid`, `RemoveObjectFromHGrid` | added(), removed() |
 /// | `CheckObjAgainstGrid` | candidates() for one object, findPairs() for all |
+/// | `pCallbackFunc` | `visit` of visitLevel() |
 ///
 /// Differs from the listing:
-/// - Boxes in place of spheres, and three dimensions, so the level is the fourth term of the hash.
+/// - Boxes in place of spheres, and three dimensions. The level is added to the hash of the cell.
 /// - The index of a cell rounds down everywhere. The listing truncates toward zero when it inserts.
 /// - The finest cells follow from the smallest box, and the number of buckets from the number of boxes. A box that is
 ///   too long for the coarsest level is in a list.
 /// - Lists are linked in both directions, so removal takes constant time, which the book recommends.
-/// - A search looks as far beyond the query as the half side of the longest box that the level can hold. The constant
-///   EPSILON of the listing would vanish beside large coordinates.
+/// - A search looks as far beyond the query as half of the longest side that a box of the level can have; the listing looks
+///   twice as far. In place of the constant EPSILON, bounds are rounded outward: a small constant added to a large
+///   coordinate may not change it.
 /// - **Large queries.** The listing visits each cell that the query covers. On a level of small cells, these can be far
 ///   more than there are boxes. Here each level has a list of its boxes. A search goes through this list if it would
 ///   otherwise visit more cells than the list has boxes.
 /// - The search for all pairs finds each pair once: a box looks at its own level and at all coarser ones, as the book
 ///   says, and of two boxes on the same level the one with the smaller id reports the pair.
-/// - A search stamps buckets anew on each level, and leaves out the boxes of other levels in them.
+/// - A search stamps buckets anew on each level, and leaves out the boxes of other levels in them, because it must know
+///   the level of each box that it meets. It looks at each bit of the mask, and does not end at the highest one.
+/// - Stamps have 64 bits and are kept per thread, so several threads can search (stamps.h).
+/// - A box that moves within its bucket stays in its list.
 /// - Segments go through each level by layers of cells, see CellScale::visitRanges() (section 7.4.2).
 class HashedHGrid final : public Partition {
  public:
@@ -66,7 +71,7 @@ class HashedHGrid final : public Partition {
     ProxyId next = kNobody, previous = kNobody;  // neighbors in the list of the bucket
     std::uint32_t bucket = 0;
     int level = kMostLevels;  // kMostLevels: the box is in no cell, but in oversized_
-    std::uint32_t place = 0;  // index of the box in the list of its level
+    std::uint32_t place = 0;  // index of the box in on_level_[level]
   };
 
   void build() override;
@@ -84,7 +89,7 @@ class HashedHGrid final : public Partition {
   /// The longest side [m] of a box on this level.
   double mostSideOn(int level) const { return kSizeToCell * scaleOf(level).edge(); }
   /// The lowest level whose boxes may be as long as this box; kMostLevels if there is none.
-  int levelOf(const Aabb& box) const;
+  int levelFor(const Aabb& box) const;
   /// The cell that contains the center of a box.
   static Cell cellOf(const Aabb& box, const CellScale& scale);
   std::uint32_t bucketOf(const Cell& cell, int level) const;
