@@ -12,7 +12,7 @@ import argparse
 import rospy
 from hgrid_proximity.client import Proximity
 from hgrid_proximity.errors import ProximityError
-from hgrid_proximity.streams import PairArrays
+from hgrid_proximity.streams import BUFF_SIZE, PairArrays
 
 NODE = "proximity"  # name of the proximity node
 
@@ -43,7 +43,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.parse_args(rospy.myargv()[1:])
     rospy.init_node("ask", anonymous=True)
-    rospy.Subscriber(NODE + "/pairs", PairArrays, on_pairs, queue_size=1)
+    rospy.Subscriber(NODE + "/pairs", PairArrays, on_pairs, queue_size=1, buff_size=BUFF_SIZE)
     proximity = Proximity(NODE)
     rate = rospy.Rate(2.0)  # [Hz]
     while not rospy.is_shutdown():

@@ -13,7 +13,7 @@ import rospy
 
 from hgrid_proximity.errors import EventsMissed, NoAnswer
 from hgrid_proximity.msg import EventKind
-from hgrid_proximity.streams import EventArrays, as_arrays
+from hgrid_proximity.streams import BUFF_SIZE, EventArrays, as_arrays
 
 MOST_MESSAGES = 1000  # messages that wait to be read; when there are so many, further ones are dropped
 
@@ -48,7 +48,9 @@ class Events:
         self._last = None  # (epoch, number) of the newest event that was read
         self._dropped = False
         self._topic = node + "/events"
-        self._subscriber = rospy.Subscriber(self._topic, EventArrays, self._take, queue_size=MOST_MESSAGES)
+        self._subscriber = rospy.Subscriber(
+            self._topic, EventArrays, self._take, queue_size=MOST_MESSAGES, buff_size=BUFF_SIZE
+        )
         deadline = time.monotonic() + timeout
         while not self._accepted():
             if rospy.is_shutdown():

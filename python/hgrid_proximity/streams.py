@@ -4,8 +4,12 @@
 
 Each class has the fields of its message, with arrays as `hgrid_proximity.arrays` describes. `rosmsg show -r
 hgrid_proximity/Pairs` explains the fields. Points are in the world frame. Subscribe to the stream with the class:
-`rospy.Subscriber("/proximity/pairs", PairArrays, callback, queue_size=1)`. All subscribers to a topic in one program must
-use the same class, because rospy reads each message only once.
+`rospy.Subscriber("/proximity/pairs", PairArrays, callback, queue_size=1, buff_size=BUFF_SIZE)`. All subscribers to a topic
+in one program must use the same class, because rospy reads each message only once.
+
+`buff_size` matters: rospy reads at most that many bytes at a time, by default 64 kB, and applies `queue_size` to what it has
+read only. While a callback runs, larger messages wait in the socket, which no queue limits. Each of them is then so old that
+its `valid_until` is over, and a careful program says "stop" for ever.
 """
 from __future__ import annotations
 
@@ -17,6 +21,8 @@ import rospy
 
 from hgrid_proximity.arrays import with_arrays
 from hgrid_proximity.msg import Distances, Events, Pairs
+
+BUFF_SIZE = 2**24  # [bytes] for subscribers of these streams; more than the largest message
 
 
 def as_arrays(kind, message):
