@@ -42,7 +42,7 @@ bool matches(const std::string& glob, const std::string& name) {
     if (g < glob.size() && glob[g] == '*') {
       star = g++;
       resume = n;
-    } else if (g < glob.size() && (glob[g] == '?' || glob[g] == name[n])) {
+    } else if (g < glob.size() && glob[g] == name[n]) {
       ++g;
       ++n;
     } else if (star != std::string::npos) {
@@ -67,9 +67,7 @@ bool canMatchTogether(const std::string& first, const std::string& second) {
       bool here = !a && !b;
       if (star_a) here = below[j] || (b && possible[j + 1]);
       if (star_b && !here) here = possible[j + 1] || (a && below[j]);
-      if (a && b && !star_a && !star_b && (first[i] == second[j] || first[i] == '?' || second[j] == '?')) {
-        here = below[j + 1];
-      }
+      if (a && b && !star_a && !star_b && first[i] == second[j]) here = below[j + 1];
       possible[j] = here;
     }
   }
@@ -84,7 +82,7 @@ bool coversGlob(const std::string& wide, const std::string& narrow) {
     if (w < wide.size() && wide[w] == '*') {
       star = w++;
       resume = n;
-    } else if (w < wide.size() && narrow[n] != '*' && (wide[w] == '?' || wide[w] == narrow[n])) {
+    } else if (w < wide.size() && narrow[n] != '*' && wide[w] == narrow[n]) {
       ++w;
       ++n;
     } else if (star != std::string::npos) {

@@ -34,7 +34,7 @@ NameIndex::Iterator NameIndex::from(const std::string& name) const {
 }
 
 std::pair<NameIndex::Iterator, NameIndex::Iterator> NameIndex::candidates(const std::string& glob) const {
-  const std::string prefix = glob.substr(0, glob.find_first_of("*?"));
+  const std::string prefix = glob.substr(0, glob.find('*'));
   const Iterator begin = from(prefix);
   return {begin, std::partition_point(begin, order_.end(), [&](std::uint32_t body) {
             return bodies_[body].name.compare(0, prefix.size(), prefix) == 0;

@@ -12,7 +12,7 @@
 namespace hgrid {
 
 /// Finds bodies by name or by glob without visiting every body. A glob is compared only with the names that start with
-/// the text before its first `*` or `?`. The list of bodies must outlive the index.
+/// the text before its first `*`. The list of bodies must outlive the index.
 class NameIndex {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;
@@ -33,7 +33,7 @@ class NameIndex {
   using Iterator = std::vector<std::uint32_t>::const_iterator;
   /// Returns the place in order_ of the first body whose name is not less than `name`.
   Iterator from(const std::string& name) const;
-  /// Returns the range in order_ of the bodies whose names start with the text of the glob before its first `*` or `?`.
+  /// Returns the range in order_ of the bodies whose names start with the text of the glob before its first `*`.
   std::pair<Iterator, Iterator> candidates(const std::string& glob) const;
 
   const BodyList& bodies_;

@@ -40,7 +40,7 @@ bool PairRule::operator==(const PairRule& other) const {
          origin == other.origin && ends == other.ends && set_by == other.set_by && since == other.since;
 }
 
-bool isGlob(const std::string& name) { return name.find_first_of("*?") != std::string::npos; }
+bool isGlob(const std::string& name) { return name.find('*') != std::string::npos; }
 
 void checkRule(const PairRule& rule) {
   checkName(rule.first, "first");

@@ -122,7 +122,7 @@ TEST(PairFilter, TwoFixedBodiesMakeNoPairWhateverTheyAre) {
 
 TEST(PairFilter, PatternsHoldInBothOrdersAndForNothingElse) {
   const PairFilter filter(cell(), {},
-                          {{"left/2", "obstacle/*", "it grips them"}, {"*/0", "map/r?om", "it stands on it"}});
+                          {{"left/2", "obstacle/*", "it grips them"}, {"*/0", "map/r*om", "it stands on it"}});
   EXPECT_EQ(originOf(filter, hand, box), Origin::parameter);
   EXPECT_EQ(originOf(filter, hand, shelf), Origin::parameter);
   EXPECT_EQ(originOf(filter, base, room), Origin::parameter);

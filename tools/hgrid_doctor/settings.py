@@ -3,9 +3,13 @@
 """The parameters of the node that the checks need. A wrong value is replaced by the default; the node reports it."""
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
-from fnmatch import fnmatchcase
 from typing import Any, Dict, List
+
+
+def _matches(glob: str, name: str) -> bool:
+    return re.fullmatch(".*".join(map(re.escape, glob.split("*"))), name, re.DOTALL) is not None
 
 
 @dataclass
@@ -52,7 +56,7 @@ class Settings:
     values: Dict[str, Any] = field(default_factory=dict, compare=False)  # all parameters as they were read
 
     def uses_visual(self, body: str) -> bool:
-        return any(fnmatchcase(body, pattern) for pattern in self.use_visual)
+        return any(_matches(pattern, body) for pattern in self.use_visual)
 
 
 def read_settings(values: Any, node: str) -> Settings:

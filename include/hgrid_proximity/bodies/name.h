@@ -23,8 +23,8 @@ void checkLocal(const std::string& local, const std::string& what);
 /// may contain slashes.
 std::string joined(const std::string& source, const std::string& local);
 
-/// Whether a glob matches the whole name. `*` matches any number of bytes, including slashes; `?` matches one byte. The
-/// running time is at most proportional to the product of both lengths, for any glob.
+/// Whether a glob matches the whole name. `*` matches any number of bytes, including slashes; no other
+/// character has a special meaning. The running time is at most proportional to the product of both lengths.
 bool matches(const std::string& glob, const std::string& name);
 
 /// Whether there is a name that both globs match. The running time is proportional to the product of their lengths.

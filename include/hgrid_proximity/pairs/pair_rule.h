@@ -38,7 +38,7 @@ struct PairRule {
 /// Maximum length [bytes] of each name, glob and reason in a rule.
 inline constexpr std::size_t kLongestRuleText = 512;
 
-/// Returns whether a name is a glob, that is, contains a `*` or a `?`.
+/// Returns whether a name is a glob, that is, contains a `*`. No other character has a special meaning.
 bool isGlob(const std::string& name);
 
 /// Checks the names and the reason of a rule: their length and that they are printable UTF-8.

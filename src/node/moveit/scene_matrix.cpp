@@ -23,7 +23,7 @@ std::map<std::string, std::size_t> indexOf(const std::vector<std::string>& names
     checkLocal(name, "a name in " + kWhat);
     if (isGlob(name)) {
       throw Refusal(Code::bad_id, kWhat + " has the name '" + printable(name) +
-                                      "'; names with * or ? cannot be used, because rules read them as globs");
+                                      "'; names with * cannot be used, because rules read them as globs");
     }
     if (!index.emplace(name, index.size()).second) {
       throw Refusal(Code::dup_id, kWhat + " has the name '" + printable(name) + "' twice; each name needs one row");

@@ -123,7 +123,7 @@ void readAttached(ParamValue value, ParamValue& element, ObstacleParams& obstacl
   const std::string local = obstacle.body.name.substr(obstacle.body.name.find('/') + 1);
   if (isGlob(local)) {  // a rule with this name would also be about other obstacles
     element.error("is attached, but its name '" + printable(local) +
-                  "' contains * or ?; the names of attached obstacles must not");
+                  "' contains *; the names of attached obstacles must not");
   }
   AttachedParams attached;
   if (auto link = value.require("link")) {

@@ -51,6 +51,17 @@ Descriptions textsOf(const RobotEntries& robots) {
   return texts;
 }
 
+/// In rules that an earlier version of the node stored, a question mark was a glob for one letter.
+void warnOfQuestionMarks(const std::vector<PairRule>& rules) {
+  for (const PairRule& rule : rules) {
+    if ((rule.first + rule.second).find('?') == std::string::npos) continue;
+    ROS_WARN(
+        "the stored rule '%s', '%s' has a question mark, which is a letter now; only * is a glob. If it was meant "
+        "as a glob, clear the rule and set one with *",
+        rule.first.c_str(), rule.second.c_str());
+  }
+}
+
 }  // namespace
 
 StateKeeper::StateKeeper(Commons& commons) : commons_(commons) {
@@ -83,6 +94,7 @@ void StateKeeper::open() {
   for (const std::string& trouble : restored_.troubles) ROS_ERROR("%s", trouble.c_str());
   for (const std::string& key : restored_.unreadable) items_.erase(key);
   seen_rules_ = restored_.rules;
+  warnOfQuestionMarks(restored_.rules);
 }
 
 StateKeeper::~StateKeeper() {

@@ -131,7 +131,7 @@ TEST_F(QueryAnswers, ALimitCutsAndSaysSo) {
 TEST_F(QueryAnswers, PatternsSelectBodiesAndExcludeTakesPrecedenceOverInclude) {
   msg::QuerySphere::Request request;
   request.radius = 100;
-  request.include = {"obstacle/post_?"};
+  request.include = {"obstacle/post_*"};
   request.exclude = {"*_3", "*_5"};
   EXPECT_EQ(namesOf(node_->ask(request).answer), std::vector<std::string>({"obstacle/post_2", "obstacle/post_4"}));
   request.include = {"obstacle/post_4"};
