@@ -17,6 +17,41 @@ constexpr std::size_t kLongestReason = 512;  // [bytes] longer reasons of an SRD
 
 constexpr std::size_t kMostNamed = 8;  // largest number of joints in a reason
 
+/// Finds the links with geometry that are nearest to a link, over fixed joints.
+class NearestShapes {
+ public:
+  explicit NearestShapes(const RobotModel& model) : model_(model), fixed_to_(model.links.size()) {
+    for (std::uint32_t i = 0; i < model.links.size(); ++i) {
+      const RobotLink& link = model.links[i];
+      if (link.parent < 0 || link.joint_kind != JointKind::fixed) continue;
+      fixed_to_[i].push_back(static_cast<std::uint32_t>(link.parent));
+      fixed_to_[static_cast<std::size_t>(link.parent)].push_back(i);
+    }
+  }
+  /// Returns the link itself if it has geometry. If not, returns all links with geometry that fixed joints connect to
+  /// it, through links without geometry only.
+  std::vector<std::uint32_t> from(std::uint32_t link) const {
+    std::vector<std::uint32_t> found;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> open = {{link, link}};  // a link, and the one before it
+    while (!open.empty()) {
+      const auto [at, before] = open.back();
+      open.pop_back();
+      if (model_.links[at].hasGeometry()) {
+        found.push_back(at);
+        continue;
+      }
+      for (const std::uint32_t next : fixed_to_[at]) {
+        if (next != before) open.emplace_back(next, at);
+      }
+    }
+    return found;
+  }
+
+ private:
+  const RobotModel& model_;
+  std::vector<std::vector<std::uint32_t>> fixed_to_;  // for each link: the links that a fixed joint connects to it
+};
+
 }  // namespace
 
 struct LinkMatrix::State {
@@ -65,14 +100,21 @@ void LinkMatrix::State::setGroups(const RobotModel& model) {
     group_of.push_back(model.links[i].rigid_group);
     members[group_of[i]].push_back(i);
   }
-  const auto setAll = [&](std::uint32_t first, std::uint32_t second, Origin origin) {
-    for (const std::uint32_t i : members[first]) {
-      for (const std::uint32_t j : members[second]) set(i, j, origin);
+  const auto setAll = [&](const std::vector<std::uint32_t>& first, const std::vector<std::uint32_t>& second,
+                          Origin origin) {
+    for (const std::uint32_t i : first) {
+      for (const std::uint32_t j : second) set(i, j, origin);
     }
   };
+  const NearestShapes nearest(model);
   for (std::uint32_t group = 0; group < groups.size(); ++group) {
-    setAll(group, group, Origin::rigid);
-    for (const std::uint32_t above : groups.adjacentAbove(group)) setAll(group, above, Origin::adjacent);
+    setAll(members[group], members[group], Origin::rigid);
+    std::uint32_t below = model.group_roots[group];  // the child of the uppermost of the joints
+    const std::vector<std::uint32_t> children = nearest.from(below);
+    for (const std::uint32_t above : groups.adjacentAbove(group)) {
+      setAll(children, nearest.from(static_cast<std::uint32_t>(model.links[below].parent)), Origin::adjacent);
+      below = model.group_roots[above];
+    }
   }
 }
 
@@ -109,14 +151,14 @@ const LinkMatrix::Tag* LinkMatrix::tag(std::uint32_t first, std::uint32_t second
 std::string LinkMatrix::adjacencyReason(std::uint32_t first, std::uint32_t second) const {
   const std::vector<std::string> joints =
       state_->groups.jointsBetween(state_->group_of[first], state_->group_of[second]);
-  if (joints.size() == 1) return "joint '" + printable(joints.front()) + "' connects their rigid groups";
+  if (joints.size() == 1) return "joint '" + printable(joints.front()) + "' connects them";
   std::string names;
   for (std::size_t i = 0; i < std::min(joints.size(), kMostNamed); ++i) {
     names += (names.empty() ? "'" : ", '") + printable(joints[i]) + "'";
   }
   if (joints.size() > kMostNamed) names += ", ...";
   return "the " + std::to_string(joints.size()) + " joints " + names +
-         " connect their rigid groups in one place, without geometry between them";
+         " connect them in one place, without geometry between them";
 }
 
 void LinkMatrix::State::set(std::uint32_t first, std::uint32_t second, Origin origin) {

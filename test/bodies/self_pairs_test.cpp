@@ -54,6 +54,7 @@ TEST(SelfPairs, OfTwoLinksLookWrongOnlyIfTheSrdfSwitchesThemOff) {
   EXPECT_TRUE(countSelfPairs(model, test::matrixOf(model, rules)).looksWrong());
   addLink(model, "cover", 0, JointKind::fixed);
   addLink(model, "motor", 0, JointKind::fixed);
+  model.links[1].joint_kind = JointKind::fixed;
   findRigidGroups(model);
   EXPECT_TRUE(countSelfPairs(model, test::matrixOf(model)).looksWrong()) << "all pairs of four links are off";
 }

@@ -127,7 +127,7 @@ TEST_F(Explain, EveryOriginIsToldWithItsReason) {
   EXPECT_EQ(srdf.rule.reason, "Never");
   EXPECT_EQ(srdf.rule.first, "arm/base");
   EXPECT_EQ(adjacent.rule.origin, Origin::adjacent);
-  EXPECT_TRUE(says(adjacent.text, "the links are adjacent: joint 'elbow_joint' connects their rigid groups."));
+  EXPECT_TRUE(says(adjacent.text, "the links are adjacent: joint 'elbow_joint' connects them."));
 }
 
 TEST(ExplainAdjacent, AChainOfJointsIsNamedJointByJoint) {
@@ -140,7 +140,7 @@ TEST(ExplainAdjacent, AChainOfJointsIsNamedJointByJoint) {
   EXPECT_EQ(what.rule.origin, Origin::adjacent);
   EXPECT_TRUE(says(what.text,
                    "the links are adjacent: the 3 joints 'left_shoulder_swing_joint', 'left_shoulder_lift_joint', "
-                   "'left_upper_arm_joint' connect their rigid groups in one place, without geometry between them."));
+                   "'left_upper_arm_joint' connect them in one place, without geometry between them."));
 }
 
 TEST_F(Explain, WhatIsSwitchedOffSaysWhetherItWouldBeReported) {

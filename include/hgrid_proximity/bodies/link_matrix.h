@@ -46,12 +46,14 @@ struct LinkRules {
 /// and copies share memory.
 class LinkMatrix {
  public:
-  /// Switches off all pairs of links of one rigid group and of two adjacent groups, then applies the rules of an SRDF.
+  /// Switches off all pairs of links of one rigid group and of adjacent links, then applies the rules of an SRDF.
   ///
-  /// Two groups are adjacent in two cases:
-  /// - Exactly one moving joint connects the two groups.
-  /// - Several moving joints connect the two groups in one chain from parent to child. No link between the two groups
-  ///   has geometry. While all joints are at zero, the origins of consecutive joints are at most 1 cm apart.
+  /// A moving joint makes adjacent the nearest links with geometry above it and the nearest ones below it. These are
+  /// its own two links if they have geometry. From a link without geometry, the nearest ones are found over fixed
+  /// joints, through links without geometry only. Other links of the two rigid groups are not adjacent.
+  ///
+  /// Several moving joints in one chain from parent to child count as one joint if no link between them has geometry
+  /// and the origins of consecutive joints are at most 1 cm apart while all joints are at zero.
   ///
   /// disable_collisions takes precedence over enable_collisions. enable_collisions takes precedence over
   /// disable_default_collisions, adjacency and rigid groups. A rule with a link that the model does not have is ignored
@@ -81,8 +83,7 @@ class LinkMatrix {
   };
   /// Returns the SRDF tag that decides about the pair, or null if no tag names it.
   const Tag* tag(std::uint32_t first, std::uint32_t second) const;
-  /// Returns a clause that says why two links of adjacent groups may touch. It names the joints that connect the
-  /// groups.
+  /// Returns a clause that says why two adjacent links may touch. It names the joints that connect them.
   std::string adjacencyReason(std::uint32_t first, std::uint32_t second) const;
 
  private:

@@ -191,10 +191,31 @@ bool WitnessRobot::isAdjacent(const std::string& upper, std::string group) const
   return false;
 }
 
+/// Returns whether the way between two links through the tree meets no other link with shapes.
+bool WitnessRobot::isWayBare(const std::string& first, const std::string& second) const {
+  const auto wayUp = [&](std::string link) {
+    std::vector<std::string> way{link};
+    while (link != root_) way.push_back(link = joints_.at(link).parent);
+    return way;
+  };
+  std::vector<std::string> up = wayUp(first), down = wayUp(second);
+  std::string top;  // the lowest link that is above both, or one of them
+  while (!up.empty() && !down.empty() && up.back() == down.back()) {
+    top = up.back();
+    up.pop_back();
+    down.pop_back();
+  }
+  up.insert(up.end(), down.begin(), down.end());
+  up.push_back(top);
+  return std::none_of(up.begin(), up.end(), [&](const std::string& link) {
+    return link != first && link != second && shapes_.count(link) > 0;
+  });
+}
+
 bool WitnessRobot::mayTouch(const std::string& first, const std::string& second) const {
   const std::string a = rigidGroup(first), b = rigidGroup(second);
-  return a == b || isAdjacent(a, b) || isAdjacent(b, a) || may_touch_.count({first, second}) > 0 ||
-         may_touch_.count({second, first}) > 0;
+  const bool adjacent = (isAdjacent(a, b) || isAdjacent(b, a)) && isWayBare(first, second);
+  return a == b || adjacent || may_touch_.count({first, second}) > 0 || may_touch_.count({second, first}) > 0;
 }
 
 std::vector<WitnessRobot::Joint> WitnessRobot::driven() const {

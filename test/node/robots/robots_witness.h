@@ -62,7 +62,7 @@ class WitnessRobot {
   /// Returns the boxes of the shapes in the world frame, by link. Leaves out links without shapes.
   std::map<std::string, WitnessBody> bodiesAt(const Poses& world_from_links) const;
   std::size_t shapeCount() const;
-  /// Returns whether two links may touch: they are in one rigid group or in adjacent groups, or the SRDF allows it.
+  /// Returns whether two links may touch: they are in one rigid group or adjacent, or the SRDF allows it.
   bool mayTouch(const std::string& first, const std::string& second) const;
 
  private:
@@ -72,6 +72,7 @@ class WitnessRobot {
   std::string rigidGroup(std::string link) const;
   void readJoint(const tinyxml2::XMLElement& element);
   bool isAdjacent(const std::string& upper, std::string group) const;
+  bool isWayBare(const std::string& first, const std::string& second) const;
 
   std::string root_;
   std::map<std::string, std::vector<Points>> shapes_;  // points that include all corners of the hull, by link

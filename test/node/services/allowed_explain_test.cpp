@@ -82,7 +82,7 @@ TEST_F(ExplainPair, NamesTheReasonOfWhatIsSwitchedOff) {
   expectOff("robot/a", "robot/a", msg::RuleOrigin::SELF, "they are the same body");
   expectOff("obstacle/post", "obstacle/wall", msg::RuleOrigin::KIND, "both are fixed in the world");
   expectOff("robot/b", "robot/c", msg::RuleOrigin::RIGID, "both links are of one rigid group");
-  expectOff("robot/base", "robot/a", msg::RuleOrigin::ADJACENT, "joint 'base_a' connects their rigid groups");
+  expectOff("robot/base", "robot/a", msg::RuleOrigin::ADJACENT, "joint 'base_a' connects them");
   expectOff("robot/b", "robot/a", msg::RuleOrigin::SRDF, "the SRDF disables the pair (Never)");
   expectOff("obstacle/wall", "robot/a", msg::RuleOrigin::PARAMETER,
             "rule 'robot/a', 'obstacle/w*' of ~allowed_pairs allows them to touch (it leans there)");

@@ -305,12 +305,12 @@ TEST_F(AllowedRules, TheMatrixIsReturnedForGlobsWithALimitAndAsSrdf) {
   EXPECT_EQ(all.srdf,
             "<robot name=\"r\">\n"
             "  <disable_collisions link1=\"a\" link2=\"b\" reason=\"parked &amp; safe\"/>\n"
-            "  <disable_collisions link1=\"a\" link2=\"base\" reason=\"joint 'base_a' connects their rigid groups\"/>\n"
-            "  <disable_collisions link1=\"b\" link2=\"base\" reason=\"joint 'base_b' connects their rigid groups\"/>\n"
+            "  <disable_collisions link1=\"a\" link2=\"base\" reason=\"joint 'base_a' connects them\"/>\n"
+            "  <disable_collisions link1=\"b\" link2=\"base\" reason=\"joint 'base_b' connects them\"/>\n"
             "  <enable_collisions link1=\"base\" link2=\"c\" reason=\"\"/>\n"
             "</robot>\n");
   request.first = "robot/base";
-  request.second = "robot/?";
+  request.second = "robot/*";
   request.limit = 2;
   const auto some = node_->getAllowed(request);
   EXPECT_EQ(gist(some), Names({"robot/a robot/base 2 +", "robot/b robot/base 2 +"}));
