@@ -124,12 +124,14 @@ void appendVariables(const RobotLink& link, std::vector<JointVariable>& variable
     case JointKind::revolute:
     case JointKind::prismatic:
       add("", link.joint_kind == JointKind::revolute);
+      variables.back().is_continuous = link.continuous;
       if (link.continuous || (link.lower == 0.0 && link.upper == 0.0)) break;
       variables.back().lower = link.lower;
       variables.back().upper = link.upper;
       break;
     case JointKind::planar:
       add("/x", false), add("/y", false), add("/theta", true);
+      variables.back().is_continuous = true;
       break;
     case JointKind::floating:
       add("/trans_x", false), add("/trans_y", false), add("/trans_z", false);
@@ -166,6 +168,9 @@ Kinematics::Kinematics(const RobotModel& model) {
       if (joint.mimics && !(hasOneVariable(link) && hasOneVariable(*master.link))) {
         throw Refusal(Code::unsupported, jointText(link) + " mimics " + jointText(*master.link) +
                                              "; both must be revolute, continuous or prismatic");
+      }
+      if (!link.has_axis) {
+        throw Refusal(Code::bad_geometry, jointText(link) + " has an axis of length 0; it must have a direction");
       }
       joint.kind = link.joint_kind;
       joint.parent = parent.rigid_group;

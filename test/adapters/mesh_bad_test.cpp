@@ -190,6 +190,21 @@ TEST_F(BadMesh, InvalidVerticesAreRefused) {
   EXPECT_EQ(refusal("a.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n") == Code::ok, false);
 }
 
+/// Claim: the limit of coordinates is one of meters, so it counts after the scale.
+TEST_F(BadMesh, AFileInMillimetersMayHoldLargeNumbers) {
+  MeshLoader loader(policy_);
+  Triangle hall = kFlat;
+  hall[1] = {149900, 0, 0};
+  const std::string uri = "file://" + folder_.write("hall.stl", stl({kFlat, hall}));
+  const auto mesh = loader.load(uri, Eigen::Vector3d::Constant(0.001));
+  double farthest = 0.0;
+  for (const Eigen::Vector3d& vertex : mesh->vertices) farthest = std::max(farthest, vertex.x());
+  EXPECT_NEAR(farthest, 149.9, 1e-9);
+  std::string sentence;
+  EXPECT_EQ(refusalOf([&] { loader.load(uri, Eigen::Vector3d::Ones()); }, &sentence), Code::out_of_range);
+  EXPECT_TRUE(says(sentence, "at scale 1 1 1")) << "the sentence tells that the file may be in another unit";
+}
+
 TEST_F(BadMesh, CheckMeshAppliesItsLimit) {
   TriangleMesh mesh = *tetrahedron();
   EXPECT_EQ(refusalOf([&] { checkMesh(mesh, 0.5, "m"); }), Code::ok) << "a size equal to the limit is allowed";

@@ -98,8 +98,6 @@ TEST(UrdfShapes, InvalidGeometryIsNamed) {
 TEST(UrdfShapes, SizesThatAreNotPositiveAreNamed) {
   expectUnreadable({
       {sphere("-1"), Code::bad_geometry, {"-1", "radius"}},
-      {sphere("0"), Code::bad_geometry, {"0", "radius"}},
-      {sphere("-0.0"), Code::bad_geometry, {"radius"}},
       {sphere("1e-320"), Code::bad_geometry, {"radius"}},
       {box("1 -2 1"), Code::bad_geometry, {"-2"}},
       {box("1 1 0"), Code::bad_geometry, {"0"}},
@@ -107,6 +105,19 @@ TEST(UrdfShapes, SizesThatAreNotPositiveAreNamed) {
       {cylinder("1", "-0.25"), Code::bad_geometry, {"-0.25"}},
       {cylinder("0", "1"), Code::bad_geometry, {"0", "radius"}},
   });
+}
+
+/// Claim: a shape without any extent, by which some robots mark a place, is a point. A shape that is only flat is not.
+TEST(UrdfShapes, WithoutAnyExtentIsAPoint) {
+  const RobotModel model = read(robot(link("a", sphere("0") + box("0 0 0") + box("0 0 1"))));
+  const RobotLink& a = model.links.at(0);
+  ASSERT_EQ(a.shapes.size(), 2u);
+  EXPECT_EQ(a.shapes[0].shape.dimensions(), std::vector<double>({1e-4}));
+  EXPECT_EQ(a.shapes[1].shape.dimensions(), std::vector<double>({1e-4, 1e-4, 1e-4}));
+  ASSERT_EQ(a.unreadable.size(), 1u);
+  EXPECT_EQ(a.unreadable[0].code(), Code::bad_geometry);
+  ASSERT_EQ(model.warnings.size(), 2u);
+  EXPECT_EQ(model.warnings[0], "<collision> 1 of link 'a' has size 0; it counts as a point of 0.0001 m");
 }
 
 TEST(UrdfShapes, MeshesThatCannotBeOpenedAreNamed) {
@@ -147,7 +158,7 @@ TEST(UrdfShapes, OriginsBeyondTheLimitAreNamed) {
 }
 
 TEST(UrdfShapes, ARobotOfBadShapesOnlyIsStillARobot) {
-  const RobotModel model = read(robot(link("base", sphere("nan") + box("0 0 0") + collision("<torus/>"))));
+  const RobotModel model = read(robot(link("base", sphere("nan") + box("0 0 1") + collision("<torus/>"))));
   ASSERT_EQ(model.links.size(), 1u);
   EXPECT_TRUE(model.links[0].has_collision);
   EXPECT_TRUE(model.links[0].shapes.empty());

@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "hgrid_proximity/bodies/kinematics.h"
 #include "test/adapters/urdf_texts.h"
 #include "test/support/refusals.h"
 
@@ -85,10 +86,39 @@ TEST(UrdfStructure, InvalidLinkNamesAreRefused) {
   EXPECT_EQ(read(robot(link(std::string(128, 'x')))).links.size(), 1u);
 }
 
+TEST(UrdfStructure, AnElementOfXacroBesideLinksIsIgnoredWithAWarning) {
+  const RobotModel model = read(robot("<xacro:include filename=\"more.xacro\"/>\n" + link("base")));
+  EXPECT_EQ(model.links.size(), 1u);
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_TRUE(says(model.warnings[0], "<xacro:include> in line 2"));
+}
+
+TEST(UrdfStructure, WhatUrdfdomSaysIsInTheSentence) {
+  std::string sentence;
+  EXPECT_EQ(refusalOf([] { read("<robot name=\"r\" version=\"1\">" + link("a") + "</robot>"); }, &sentence),
+            Code::parse);
+  EXPECT_TRUE(says(sentence, "the URDF's links and joints cannot be read: "));
+  EXPECT_TRUE(says(sentence, "ersion")) << "urdfdom takes version 1.0 only, and says so";
+}
+
+/// Claim: a joint whose limits leave it no room is named, because other tools do not let it move at all.
+TEST(UrdfStructure, LimitsWithoutRoomAreAWarningByName) {
+  for (const std::string limit : {"", "lower=\"1\" upper=\"-1\" ", "lower=\"2\" upper=\"2\" "}) {
+    SCOPED_TRACE(limit);
+    const RobotModel model =
+        read(robot(link("base") + link("arm") +
+                   joint("hinge", "base", "arm", "revolute", "<limit " + limit + "effort=\"1\" velocity=\"1\"/>")));
+    ASSERT_EQ(model.warnings.size(), 1u);
+    EXPECT_TRUE(says(model.warnings[0], "joint 'hinge' may go from"));
+  }
+}
+
 TEST(UrdfStructure, AnAxisOfLengthZeroIsAWarningByName) {
   const RobotModel model =
       read(robot(link("base") + link("arm") + joint("hinge", "base", "arm", "continuous", "<axis xyz=\"0 0 0\"/>")));
   EXPECT_EQ(model.links.at(1).axis.norm(), 1.0);
+  EXPECT_FALSE(model.links.at(1).has_axis);
+  EXPECT_EQ(refusalOf([&] { Kinematics{model}; }), Code::bad_geometry) << "nobody knows how this joint moves";
   ASSERT_EQ(model.warnings.size(), 1u);
   EXPECT_TRUE(says(model.warnings[0], "hinge"));
 }

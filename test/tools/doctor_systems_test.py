@@ -20,7 +20,7 @@ from system import ARM, ARM_SRDF, PUPPET, ROOT, System, wait_for  # noqa: E402  
 ALL = os.environ.get("HGRID_TEST_DOCTOR_SYSTEMS", "few") == "all"
 
 XACRO = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-  <xacro:property name="length" value="1"/><link name="base_link"/>
+  <xacro:property name="length" value="1"/>
 </robot>"""
 SEEN_ARM = ARM.replace("collision>", "visual>")
 TABLE = {"name": "table", "shapes": [{"type": "box", "size": [1.0, 1.0, 0.1]}]}

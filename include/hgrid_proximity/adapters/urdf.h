@@ -12,7 +12,7 @@ namespace hgrid {
 /// Limits for XML text. They protect the XML libraries.
 struct DescriptionLimits {
   std::size_t max_bytes = 16u << 20;  ///< largest size of the text
-  std::size_t max_depth = 256;        ///< largest depth of nested elements; needed because the parsers are recursive
+  std::size_t max_depth = 98;         ///< largest depth of nested elements; tinyxml2 of Debian 12 takes no more
   std::size_t max_links = 2000;       ///< largest number of links
 };
 

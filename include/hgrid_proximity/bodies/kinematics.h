@@ -25,14 +25,17 @@ struct JointVariable {
   double lower = 0.0;     ///< [rad] or [m] lower limit; -infinity: none
   double upper = 0.0;     ///< [rad] or [m] upper limit; infinity: none
   bool is_angle = false;  ///< whether it is an angle [rad]
+  /// Whether it is the angle of a continuous or planar joint, for which a full turn is the same pose. A revolute joint
+  /// whose limits are not known is none: its controller may count turns.
+  bool is_continuous = false;
   /// Whether another joint mimics its joint. Only Kinematics::variables() has this.
   bool is_mimicked = false;
   /// Index of the first of the four variables of the quaternion that it belongs to; -1: it belongs to none.
   int quaternion = -1;
 
-  /// Returns whether adding a full turn to its value does not change where the links are: it is an angle without limits,
-  /// and no joint mimics its joint. Such a joint can take the shorter way around the circle.
-  bool turnsFreely() const { return is_angle && !is_mimicked && std::isinf(lower) && std::isinf(upper); }
+  /// Returns whether adding a full turn to its value does not change where the links are: its joint is continuous or
+  /// planar, and no joint mimics it. Such a joint can take the shorter way around the circle.
+  bool turnsFreely() const { return is_continuous && !is_mimicked; }
 };
 
 /// Appends the variables that the joint of a link has if it does not mimic another joint.
@@ -57,6 +60,7 @@ class Kinematics {
   /// @throws Refusal unsupported if it mimics a joint that does not have exactly one variable, if it is planar or
   /// floating itself, or if joints mimic each other in a loop
   /// @throws Refusal nonfinite if a multiplier or an offset is not finite
+  /// @throws Refusal bad_geometry if a joint that needs an axis has none
   explicit Kinematics(const RobotModel& model);
 
   /// Returns the name of the robot in the URDF.

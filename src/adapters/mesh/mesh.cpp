@@ -141,7 +141,6 @@ std::shared_ptr<const TriangleMesh> readMesh(const OpenResource& file, const Mes
   reader.read(mesh->triangles.data(), mesh->triangles.size() * sizeof(mesh->triangles[0]));
   mesh->vertices.reserve(vertices.size());
   for (const Eigen::Vector3f& vertex : vertices) mesh->vertices.push_back(vertex.cast<double>());
-  checkMesh(*mesh, ShapeLimits{}.max_size, what);
   return mesh;
 }
 
@@ -196,9 +195,10 @@ std::shared_ptr<const TriangleMesh> MeshLoader::load(const std::string& uri, con
   const OpenResource file = openResource(uri, policy_.resources);
   std::shared_ptr<const TriangleMesh>& raw = read_[file.path()];
   if (!raw) raw = read(file, what);
-  if (scale == Eigen::Vector3d::Ones()) return raw;
-  auto mesh = scaled(*raw, scale);
-  checkMesh(*mesh, ShapeLimits{}.max_size, what + " after scaling");
+  const auto mesh = scale == Eigen::Vector3d::Ones() ? raw : scaled(*raw, scale);
+  // A file in millimeters may hold large numbers, so only what they are in meters counts.
+  const std::string factors = text(scale.x()) + " " + text(scale.y()) + " " + text(scale.z());
+  checkMesh(*mesh, ShapeLimits{}.max_size, what + " at scale " + factors);
   return mesh;
 }
 

@@ -118,15 +118,35 @@ BodyShape bodyShapeOf(const urdf::Collision& collision, const std::string& what,
                 what + " has a kind of shape that is not supported; it must be a sphere, box, cylinder or mesh");
 }
 
+/// Lets a shape without any extent, by which some URDFs mark a place, be the smallest shape of its kind.
+/// @returns whether it has no extent
+bool growFromPoint(urdf::Geometry& geometry, const ShapeLimits& limits) {
+  if (geometry.type == urdf::Geometry::SPHERE) {
+    double& radius = dynamic_cast<urdf::Sphere&>(geometry).radius;
+    if (radius != 0.0) return false;
+    radius = limits.min_size;
+    return true;
+  }
+  if (geometry.type != urdf::Geometry::BOX) return false;
+  urdf::Vector3& size = dynamic_cast<urdf::Box&>(geometry).dim;
+  if (size.x != 0.0 || size.y != 0.0 || size.z != 0.0) return false;
+  size.x = size.y = size.z = limits.min_size;
+  return true;
+}
+
 /// Reads all elements of a link that have the given tag, <collision> or <visual>. @returns whether there are any
 bool readShapes(const tinyxml2::XMLElement& element, const char* tag, RobotLink& link, const MeshSource& meshes,
-                const ShapeLimits& limits) {
+                const ShapeLimits& limits, std::vector<std::string>& warnings) {
   int number = 0;
   for (auto* shape = element.FirstChildElement(tag); shape != nullptr; shape = shape->NextSiblingElement(tag)) {
     const std::string what =
         "<" + std::string(tag) + "> " + std::to_string(++number) + " of link '" + printable(link.name) + "'";
     try {
-      link.shapes.push_back(bodyShapeOf(*parseShape(*shape, what), what, meshes, limits));
+      const urdf::CollisionSharedPtr read = parseShape(*shape, what);
+      if (growFromPoint(*read->geometry, limits)) {
+        warnings.push_back(what + " has size 0; it counts as a point of " + text(limits.min_size) + " m");
+      }
+      link.shapes.push_back(bodyShapeOf(*read, what, meshes, limits));
     } catch (const Refusal& refusal) {
       const std::string sentence = refusal.what();
       link.unreadable.emplace_back(refusal.code(), sentence.rfind(what, 0) == 0 ? sentence : what + ": " + sentence);
@@ -149,7 +169,8 @@ void checkCounts(const tinyxml2::XMLElement& robot, const DescriptionLimits& lim
 
 /// Throws a Refusal that names the joint that urdfdom cannot read. The error text of urdfdom does not always name the
 /// joint, so this function reads each joint separately.
-[[noreturn]] void nameUnreadableJoint(const tinyxml2::XMLElement& robot) {
+/// @param reason  what urdfdom said first; may be empty
+[[noreturn]] void nameUnreadableJoint(const tinyxml2::XMLElement& robot, const std::string& reason) {
   for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr; joint = joint->NextSiblingElement("joint")) {
     tinyxml2::XMLDocument alone;
     tinyxml2::XMLElement* root = alone.NewElement("robot");
@@ -165,7 +186,7 @@ void checkCounts(const tinyxml2::XMLElement& robot, const DescriptionLimits& lim
     throw Refusal(Code::parse, "joint '" + printable(joint->Attribute("name")) +
                                    "' cannot be read: " + printable(printed(*joint), 300));
   }
-  throw Refusal(Code::parse, "the URDF's links and joints cannot be read");
+  throw Refusal(Code::parse, "the URDF's links and joints cannot be read" + (reason.empty() ? "" : ": " + reason));
 }
 
 /// Reads the links and joints of the robot with urdfdom. urdfdom gets a copy of the robot without all other elements.
@@ -182,7 +203,8 @@ urdf::ModelInterfaceSharedPtr parseTree(const tinyxml2::XMLElement& robot) {
   if (const auto model = urdf::parseURDF(printed(bare))) {
     if (model->getRoot()) return model;
   }
-  nameUnreadableJoint(*root);
+  const std::string reason = errors.first();
+  nameUnreadableJoint(*root, reason);
 }
 
 JointKind kindOf(const urdf::Joint& joint) {
@@ -225,7 +247,9 @@ RobotLink linkOf(const urdf::Link& source, int parent, const ShapeLimits& limits
   if (has_axis && axis.allFinite() && largest > 0.0) {
     link.axis = (axis / largest).normalized();  // the squared norm of `axis` itself may overflow
   } else if (has_axis) {
-    warnings.push_back(what + " has an axis of length " + text(axis.norm()) + "; its x axis is used instead");
+    link.has_axis = false;
+    warnings.push_back(what + " has an axis of length " + text(axis.norm()) +
+                       ", so nobody knows how it moves; states of the robot cannot be checked");
   }
   if (joint.limits) {
     link.max_velocity = std::max(joint.limits->velocity, 0.0);
@@ -235,6 +259,13 @@ RobotLink linkOf(const urdf::Link& source, int parent, const ShapeLimits& limits
     }
     link.lower = joint.limits->lower;
     link.upper = joint.limits->upper;
+  }
+  const bool is_limited = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::PRISMATIC;
+  if (is_limited && joint.mimic == nullptr && !(link.lower < link.upper)) {
+    warnings.push_back(what + " may go from " + text(link.lower) + " to " + text(link.upper) +
+                       " by its <limit>, so other tools do not let it move at all; here it moves without limits, but "
+                       "it does not take the shorter way around like a continuous joint");
+    if (link.lower > link.upper) link.lower = link.upper = 0.0;
   }
   return link;
 }
@@ -247,10 +278,10 @@ RobotModel readUrdf(const std::string& xml, const MeshSource& meshes, const Desc
   parseXml(xml, limits, "the URDF", "robot", document);
   const tinyxml2::XMLElement& robot = *document.RootElement();
   checkCounts(robot, limits);
-  checkTree(robot);
+  RobotModel model;
+  checkTree(robot, model.warnings);
   const urdf::ModelInterfaceSharedPtr tree = parseTree(robot);
 
-  RobotModel model;
   model.name = tree->getName();
   std::vector<urdf::LinkConstSharedPtr> open = {tree->getRoot()};
   std::map<std::string, int> index;
@@ -264,9 +295,9 @@ RobotModel readUrdf(const std::string& xml, const MeshSource& meshes, const Desc
   for (auto* element = robot.FirstChildElement("link"); element != nullptr;
        element = element->NextSiblingElement("link")) {
     RobotLink& link = model.links[static_cast<std::size_t>(index.at(element->Attribute("name")))];
-    link.has_collision = readShapes(*element, "collision", link, meshes, shape_limits);
+    link.has_collision = readShapes(*element, "collision", link, meshes, shape_limits, model.warnings);
     if (link.has_collision || !takes_visual || !takes_visual(link.name)) continue;
-    link.uses_visual = readShapes(*element, "visual", link, meshes, shape_limits);
+    link.uses_visual = readShapes(*element, "visual", link, meshes, shape_limits, model.warnings);
   }
   findRigidGroups(model);
   return model;

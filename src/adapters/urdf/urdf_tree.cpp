@@ -36,21 +36,39 @@ std::string linkOf(const tinyxml2::XMLElement& joint, const char* end, const std
   return link;
 }
 
+bool isXacro(const tinyxml2::XMLElement& element) { return std::strncmp(element.Name(), "xacro:", 6) == 0; }
+
+std::string xacroText(const tinyxml2::XMLElement& element) {
+  return "the URDF contains <" + printable(element.Name()) + "> in line " + std::to_string(element.GetLineNum());
+}
+
 /// Refuses elements that only xacro understands. A parser of URDF would silently leave them out.
 void refuseXacro(const tinyxml2::XMLElement& parent) {
   for (auto* child = parent.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
-    if (std::strncmp(child->Name(), "xacro:", 6) == 0) {
-      refuse("the URDF contains <" + printable(child->Name()) + "> in line " + std::to_string(child->GetLineNum()) +
+    if (isXacro(*child)) {
+      refuse(xacroText(*child) +
              ": it is a xacro file that was not expanded; use the output of the command xacro instead");
     }
     refuseXacro(*child);
   }
 }
 
+/// Beside links, an element of xacro is left over, and ignored with a warning. Anywhere else, it is refused.
+void checkXacro(const tinyxml2::XMLElement& robot, std::vector<std::string>& warnings) {
+  if (robot.FirstChildElement("link") == nullptr) return refuseXacro(robot);
+  for (auto* child = robot.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    if (isXacro(*child)) {
+      warnings.push_back(xacroText(*child) + " beside its links; it is ignored, as by other readers of URDF");
+    } else {
+      refuseXacro(*child);
+    }
+  }
+}
+
 }  // namespace
 
-void checkTree(const tinyxml2::XMLElement& robot) {
-  refuseXacro(robot);
+void checkTree(const tinyxml2::XMLElement& robot, std::vector<std::string>& warnings) {
+  checkXacro(robot, warnings);
   std::set<std::string> links, joints;
   for (auto* link = robot.FirstChildElement("link"); link != nullptr; link = link->NextSiblingElement("link")) {
     const std::string name = nameOf(*link);

@@ -40,6 +40,11 @@ void scan(const std::string& xml, const DescriptionLimits& limits, const std::st
     } else if (xml.compare(at, 9, "<![CDATA[") == 0) {
       at = after(xml, "]]>", at);
     } else if (xml.compare(at, 2, "<?") == 0) {
+      if (depth > 0) {
+        throw Refusal(Code::unsupported, what + " has a processing instruction '" + printable(xml.substr(at, 16), 16) +
+                                             "' at byte " + std::to_string(at) +
+                                             "; inside the root element, this reader takes none");
+      }
       at = after(xml, "?>", at);
     } else if (xml.compare(at, 2, "<!") == 0) {
       throw Refusal(Code::unsupported, what + " has a declaration '" + printable(xml.substr(at, 16), 16) +

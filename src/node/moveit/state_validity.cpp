@@ -52,7 +52,7 @@ moveit::ConstraintEvalResult evaluate(const moveit::JointConstraint& constraint,
   const JointVariable& joint = kinematics.variables()[static_cast<std::size_t>(variable)];
   double apart = asked.batch.positions[static_cast<std::size_t>(variable)] -
                  std::min(std::max(constraint.position, joint.lower), joint.upper);
-  if (joint.is_angle && std::isinf(joint.lower)) apart = std::remainder(apart, 2.0 * M_PI);
+  if (joint.is_continuous) apart = std::remainder(apart, 2.0 * M_PI);
   constexpr double kSlack = 2.0 * std::numeric_limits<double>::epsilon();
   moveit::ConstraintEvalResult result;
   result.result = apart <= constraint.tolerance_above + kSlack && apart >= -constraint.tolerance_below - kSlack;

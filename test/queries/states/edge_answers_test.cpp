@@ -201,6 +201,16 @@ TEST(EdgeAnswers, AJointWithoutLimitsTakesTheShorterWay) {
   EXPECT_TRUE(limited.edge_answers.edges[0].beyond_limits);
 }
 
+/// Claim: only a continuous joint takes the shorter way. The controller of a revolute joint without limits counts
+/// turns.
+TEST(EdgeAnswers, ARevoluteJointWithoutLimitsDoesNotTakeTheShorterWay) {
+  RobotModel model = turningArm();
+  model.links[1].lower = model.links[1].upper = 0.0;
+  ArmWorld world({}, model);
+  put(world.scene, ArmWorld::ballBody("ball"), at(0.5));
+  EXPECT_EQ(world.checkEdge(kQuarter, -2 * kQuarter).verdict, Verdict::hit);
+}
+
 TEST(EdgeAnswers, AnInvalidEdgeIsRefusedByNameAndTheOthersAreAnswered) {
   ArmWorld world;
   world.check({0, std::nan(""), 1});

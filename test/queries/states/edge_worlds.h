@@ -18,8 +18,11 @@ class EdgeOracle {
   EdgeOracle(const StateChecker& checker, const RobotModel& model, std::vector<double> from, std::vector<double> to)
       : variables_(checker.kinematics().variables()), from_(std::move(from)), to_(std::move(to)) {
     for (const JointVariable& variable : variables_) {
-      bool wraps = variable.is_angle && std::isinf(variable.lower);
-      for (const RobotLink& link : model.links) wraps = wraps && link.mimic != variable.joint;
+      bool wraps = variable.is_angle;  // unless its joint is revolute with limits, or nobody knows them
+      for (const RobotLink& link : model.links) {
+        if (link.joint == variable.joint && link.joint_kind == JointKind::revolute) wraps = wraps && link.continuous;
+        wraps = wraps && link.mimic != variable.joint;
+      }
       wraps_.push_back(wraps);
     }
   }
