@@ -60,7 +60,7 @@ void playClouds(std::vector<Record>& records) {
       const Time stamp(static_cast<std::int64_t>(1e9 * frame / kRate));
       const std::string data = frameAt(frame / kRate);
       const Clock::time_point begin = Clock::now();
-      const PointCloud cloud = readPointCloud(layout, data, "the cloud");
+      const PointCloud cloud = readPointCloud(layout, data, 0.0, "the cloud");
       std::size_t left_out = 0;
       cells.see(cells.cellsOf(cloud.points, Eigen::Vector3d::Zero(), left_out), stamp);
       cells.forget(stamp);

@@ -11,12 +11,13 @@
 
 namespace hgrid {
 
-CloudCells::CloudCells(double edge, Time lifetime, std::size_t most) : edge_(edge), lifetime_(lifetime), most_(most) {}
+CloudCells::CloudCells(double edge, Time lifetime, std::size_t most) : edge_(edge), per_edge_(1.0 / edge), lifetime_(lifetime), most_(most) {}
 
 CloudCells::Keys CloudCells::keysOf(const Eigen::Vector3d& point) const {
   Keys keys;
+  // Multiplies like OctoMap, so that a point is in the same cell in a cloud and in a map.
   for (int axis = 0; axis < 3; ++axis) {  // like std::floor, but without a call; -0.1 is in cell -1
-    const double cells = point[axis] / edge_;
+    const double cells = point[axis] * per_edge_;
     const auto whole = static_cast<std::int64_t>(cells);
     keys[static_cast<std::size_t>(axis)] = whole - (cells < static_cast<double>(whole) ? 1 : 0);
   }

@@ -50,7 +50,7 @@ TEST(PointCloud, IsReadFromAnyLayout) {
     format.row_step = format.point_step * format.width + static_cast<std::uint32_t>(random.below(9));
     std::string data(std::size_t{format.row_step} * format.height, '\x7f');
     std::vector<Eigen::Vector3d> expected;
-    std::uint64_t not_finite = 0;
+    std::uint64_t not_finite = 0, too_near = 0;
     for (std::uint32_t row = 0; row < format.height; ++row) {
       for (std::uint32_t i = 0; i < format.width; ++i) {
         Eigen::Vector3d point;
@@ -65,18 +65,62 @@ TEST(PointCloud, IsReadFromAnyLayout) {
             put(data, begin + field.offset, static_cast<float>(value));
           }
         }
-        point.allFinite() ? expected.push_back(point) : void(++not_finite);
+        point.allFinite() ? expected.push_back(point) : void(++(point.hasNaN() ? not_finite : too_near));
       }
     }
-    const PointCloud cloud = readPointCloud(format, data, "cloud 'c'");
+    const PointCloud cloud = readPointCloud(format, data, 0.0, "cloud 'c'");
     EXPECT_EQ(cloud.points, expected);
     EXPECT_EQ(cloud.not_finite, not_finite);
+    EXPECT_EQ(cloud.too_near, too_near);
   }
 }
 
 TEST(PointCloud, WithoutPointsIsEmpty) {
-  EXPECT_TRUE(readPointCloud(PointCloudFormat{}, "", "cloud 'c'").points.empty());
-  EXPECT_TRUE(readPointCloud(usual(1, 0), "", "cloud 'c'").points.empty());
+  EXPECT_TRUE(readPointCloud(PointCloudFormat{}, "", 0.0, "cloud 'c'").points.empty());
+  EXPECT_TRUE(readPointCloud(usual(1, 0), "", 0.0, "cloud 'c'").points.empty());
+}
+
+/// Returns a cloud of one row with these points.
+PointCloud cloudOf(const std::vector<Eigen::Vector3f>& points, double min_range, std::uint32_t row_step) {
+  PointCloudFormat format = usual(1, static_cast<std::uint32_t>(points.size()));
+  format.row_step = row_step;
+  std::string data(16 * points.size(), '\0');
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) put(data, 16 * i + 4 * std::size_t(axis), points[i][axis]);
+  }
+  return readPointCloud(format, data, min_range, "cloud 'c'");
+}
+
+TEST(PointCloud, PointsThatSayNothingOrTooNearAreCountedApart) {
+  const float nan = NAN, inf = INFINITY;
+  const PointCloud cloud = cloudOf({{0, 0, 0},
+                                    {0, 0, 2},
+                                    {0, -9e-4f, 0},
+                                    {0, 0, 1.1e-3f},
+                                    {-inf, -inf, -inf},
+                                    {0, -inf, inf},
+                                    {-inf, nan, 0},
+                                    {inf, inf, inf},
+                                    {nan, nan, nan}},
+                                   0.001, 9 * 16);
+  EXPECT_EQ(cloud.points.size(), 2u);
+  EXPECT_EQ(cloud.no_return, 2u);
+  EXPECT_EQ(cloud.too_near, 2u);
+  EXPECT_EQ(cloud.not_finite, 3u);
+  EXPECT_EQ(cloudOf({{0, 0, 0}}, 0.0, 16).points.size(), 1u) << "with min_range 0, the origin is a point";
+}
+
+TEST(PointCloud, OfOneRowNeedsNoRowStep) {
+  const PointCloud cloud = cloudOf({{0, 0, 1}, {0, 0, 2}}, 0.0, 0);
+  EXPECT_EQ(cloud.points.size(), 2u);
+  EXPECT_TRUE(cloud.without_row_step);
+  EXPECT_FALSE(cloudOf({{0, 0, 1}}, 0.0, 16).without_row_step);
+  PointCloudFormat format = usual(2, 1);
+  format.row_step = 0;
+  EXPECT_EQ(refusalOf([&] { readPointCloud(format, std::string(32, '\0'), 0.0, "cloud 'c'"); }), Code::parse);
+  format = usual(1, 2);
+  format.row_step = 0;
+  EXPECT_EQ(refusalOf([&] { readPointCloud(format, std::string(31, '\0'), 0.0, "cloud 'c'"); }), Code::parse);
 }
 
 TEST(PointCloud, WithAWrongFormatIsRefusedByName) {
@@ -84,10 +128,10 @@ TEST(PointCloud, WithAWrongFormatIsRefusedByName) {
   const auto expect = [&](Code code, const std::string& words, const PointCloudFormat& format,
                           const std::string& bytes) {
     std::string sentence;
-    EXPECT_EQ(refusalOf([&] { readPointCloud(format, bytes, "cloud 'c'"); }, &sentence), code) << words;
+    EXPECT_EQ(refusalOf([&] { readPointCloud(format, bytes, 0.0, "cloud 'c'"); }, &sentence), code) << words;
     EXPECT_NE(sentence.find("cloud 'c' " + words), std::string::npos) << sentence;
   };
-  ASSERT_EQ(readPointCloud(usual(1, 3), data, "cloud 'c'").points.size(), 3u);
+  ASSERT_EQ(readPointCloud(usual(1, 3), data, 0.0, "cloud 'c'").points.size(), 3u);
   for (std::size_t cut = 0; cut < data.size(); ++cut) {
     expect(Code::truncated, "has " + std::to_string(cut) + " bytes of points", usual(1, 3), data.substr(0, cut));
   }

@@ -38,7 +38,7 @@ std::string describedBy(ByteSource bytes) {
 
 /// Compares the cloud that the product read with the reference. @returns how they differ; empty if they are equal
 std::string differenceOf(const PointCloud& cloud, const PointCloud& reference) {
-  if (cloud.not_finite != reference.not_finite) return "the number of points that are not finite is wrong";
+  if (cloud.not_finite + cloud.too_near != reference.not_finite) return "the number of points that are not finite is wrong";
   return cloud.points == reference.points ? "" : "the points are wrong";
 }
 
@@ -53,7 +53,7 @@ FuzzResult fuzzCloud(std::string_view input) {
   const CloudMessage message = readCloudMessage(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
   if (!message.flaw.empty()) return {false, reference ? "a valid message was refused" : flawOfSentence(message.flaw)};
   try {
-    const PointCloud cloud = readPointCloud(message.format, message.data, "cloud 'a'");
+    const PointCloud cloud = readPointCloud(message.format, message.data, 0.0, "cloud 'a'");
     return {true, reference ? differenceOf(cloud, *reference) : "an invalid cloud was accepted"};
   } catch (const Refusal& refusal) {
     return {false, reference ? "a valid cloud was refused" : flawOfRefusal(refusal)};

@@ -62,13 +62,15 @@ std::optional<PointCloud> decodedOrThrow(const std::string& message) {
     fields.emplace(name, Field{offset, datatype});
   }
   const bool big_endian = cursor.number(1) != 0;
-  const std::uint64_t point_step = cursor.number(4), row_step = cursor.number(4);
+  const std::uint64_t point_step = cursor.number(4);
+  std::uint64_t row_step = cursor.number(4);
   const std::string data = cursor.string();
   cursor.number(1);  // is_dense
   if (cursor.at != message.size()) return std::nullopt;
 
   PointCloud cloud;
   if ((height == 0 || width == 0) && data.empty()) return cloud;
+  if (row_step == 0 && height == 1) row_step = width * point_step;  // the step leads nowhere
   if (big_endian || width * point_step > row_step || data.size() != height * row_step) return std::nullopt;
   for (const char* name : {"x", "y", "z"}) {
     if (fields.count(name) != 1) return std::nullopt;

@@ -77,7 +77,7 @@ TEST(CloudCells, AreThoseOfTheModelWhateverIsSeenAndWhereverTheSensorGoes) {
       cloud.see(cells, at(stamp));
       for (const Eigen::Vector3d& point : points) {
         Keys keys;
-        for (int axis = 0; axis < 3; ++axis) keys[axis] = std::llround(std::floor(point[axis] / edge));
+        for (int axis = 0; axis < 3; ++axis) keys[axis] = std::llround(std::floor(point[axis] * (1.0 / edge)));
         double& seen = model.emplace(keys, stamp).first->second;
         seen = std::max(seen, stamp);
       }

@@ -32,16 +32,24 @@ struct PointCloudFormat {
 
 /// The points of a cloud, in the frame of its sensor [m].
 struct PointCloud {
-  std::vector<Eigen::Vector3d> points;  ///< [m, sensor frame] points with a finite position, in the order of the data
-  std::uint64_t not_finite = 0;         ///< number of points without a finite position, where the sensor saw nothing
+  std::vector<Eigen::Vector3d> points;  ///< [m, sensor frame] what the sensor saw, in the order of the data
+  std::uint64_t not_finite = 0;         ///< number of points with NaN or +inf, where the sensor saw nothing
+  std::uint64_t too_near = 0;           ///< number of points with -inf: something is nearer than the sensor can see
+  std::uint64_t no_return = 0;          ///< number of points nearer to the origin than `min_range`
+  bool without_row_step = false;        ///< whether the only row has a row_step of 0, and its points fit
 };
 
 /// Reads the fields x, y and z of all points and ignores other fields. Any thread may call this.
+///
+/// REP-117 decides what a point without a finite position says. A driver may also report a beam without return as a
+/// point at the origin of the sensor.
+/// @param min_range  [m] points nearer to the origin of the frame than this are no points
 /// @param what  name of the cloud for the error sentence, such as "cloud 'front'"
 /// @throws Refusal with one of these codes:
 /// - unsupported: numbers are big-endian, or there is no x, y or z of type FLOAT32 or FLOAT64
 /// - parse: there are two fields of one name, or a field, the points or the rows do not have the size of the format
 /// - truncated: there are too few bytes for the rows
-PointCloud readPointCloud(const PointCloudFormat& format, std::string_view data, const std::string& what);
+PointCloud readPointCloud(const PointCloudFormat& format, std::string_view data, double min_range,
+                          const std::string& what);
 
 }  // namespace hgrid

@@ -63,7 +63,7 @@ class CloudCells {
 
   Keys keysOf(const Eigen::Vector3d& point) const;
 
-  double edge_;
+  double edge_, per_edge_;  // [m], and its reciprocal [1/m], as OctoMap computes it
   Time lifetime_;
   std::size_t most_;
   Keys middle_{};           // the cell that has Voxel::kOriginKey as its x, y and z in a Voxel

@@ -53,6 +53,12 @@ FieldPlace placeOf(const char* name, const PointCloudFormat& format, const std::
   return {found->offset, wide};
 }
 
+/// Counts a point without a finite position. As REP-117 has it, -inf is an object that is too near.
+void countNotFinite(const Eigen::Vector3d& point, PointCloud& cloud) {
+  const bool too_near = !point.hasNaN() && point.minCoeff() < 0.0 && std::isinf(point.minCoeff());
+  ++(too_near ? cloud.too_near : cloud.not_finite);
+}
+
 void checkSizes(const PointCloudFormat& format, std::string_view data, const std::string& what) {
   if (std::uint64_t{format.width} * format.point_step > format.row_step) {
     throw Refusal(Code::parse, what + " has a row_step of " + std::to_string(format.row_step) +
@@ -68,8 +74,14 @@ void checkSizes(const PointCloudFormat& format, std::string_view data, const std
 
 }  // namespace
 
-PointCloud readPointCloud(const PointCloudFormat& format, std::string_view data, const std::string& what) {
+PointCloud readPointCloud(const PointCloudFormat& given, std::string_view data, double min_range,
+                          const std::string& what) {
   PointCloud cloud;
+  PointCloudFormat format = given;
+  if (format.row_step == 0 && format.height == 1 && data.size() == std::uint64_t{format.width} * format.point_step) {
+    format.row_step = static_cast<std::uint32_t>(data.size());  // the step leads nowhere, because there is no other row
+    cloud.without_row_step = format.row_step > 0;
+  }
   const std::uint64_t count = std::uint64_t{format.height} * format.width;
   if (count == 0 && data.empty()) return cloud;
   if (format.big_endian) throw Refusal(Code::unsupported, what + " is big-endian; it must be little-endian");
@@ -81,10 +93,12 @@ PointCloud readPointCloud(const PointCloudFormat& format, std::string_view data,
     const char* point = data.data() + std::size_t{row} * format.row_step;
     for (std::uint32_t i = 0; i < format.width; ++i, point += format.point_step) {
       const Eigen::Vector3d at(places[0].read(point), places[1].read(point), places[2].read(point));
-      if (at.allFinite()) {
-        cloud.points.push_back(at);
+      if (!at.allFinite()) {
+        countNotFinite(at, cloud);
+      } else if (at.norm() < min_range) {
+        ++cloud.no_return;
       } else {
-        ++cloud.not_finite;
+        cloud.points.push_back(at);
       }
     }
   }

@@ -164,7 +164,7 @@ class Reader {
   }
   void clouds(const char* name, std::vector<CloudParams>& value, const char*) {
     std::set<std::string> names;
-    forEach(name, "field of a cloud (name, topic, resolution, lifetime, empty, min_points, range)",
+    forEach(name, "field of a cloud (name, topic, resolution, lifetime, empty, min_points, range, min_range, blind_range)",
             [&](ParamValue& element) {
               CloudParams cloud;
               readString(element, "topic", cloud.topic, false);
@@ -174,6 +174,8 @@ class Reader {
               if (auto given = element.get("empty")) readWord(*given, kEmptyCloud, "unknown or clear", cloud.empty);
               if (auto given = element.get("min_points")) given->integer(cloud.min_points, 1, 100000000);
               if (auto given = element.get("range")) given->number(cloud.range, 0.0, 1e6, "m");
+              if (auto given = element.get("min_range")) given->number(cloud.min_range, 0.0, 1e3, "m");
+              if (auto given = element.get("blind_range")) given->number(cloud.blind_range, 0.0, 1e3, "m");
               readLocalName(element, cloud.name, names);
               value.push_back(cloud);
             });

@@ -69,6 +69,8 @@ struct CloudParams {
   EmptyCloud empty = EmptyCloud::unknown;
   int min_points = 1;  ///< a message with fewer finite points is empty
   double range = 0.0;  ///< [m] the sensor sees no farther than this, so a lost cloud hides nothing beyond; 0: no bound
+  double min_range = 0.001;  ///< [m] points nearer to the origin of the cloud's frame are beams without return
+  double blind_range = 0.5;  ///< [m] where something may be if points of the cloud are -inf, "too near"
 };
 
 /// What a tracker publishes.
@@ -164,7 +166,7 @@ struct Params {
   int history_bytes = 64 << 20;
   int max_pairs = 100000, max_events = 10000, event_queue = 100;
   int max_hits = 10000, max_batch = 100000, max_listed = 100, max_reasons = 8, max_rules = 1000;
-  int max_description_bytes = 16 << 20, max_description_depth = 256, max_links = 2000;
+  int max_description_bytes = 16 << 20, max_description_depth = 98, max_links = 2000;
   std::vector<std::string> mesh_roots;
   int max_mesh_bytes = 64 << 20, max_mesh_triangles = 1000000, mesh_memory = 512 << 20;
   double mesh_timeout = 5.0;

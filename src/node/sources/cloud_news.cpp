@@ -45,4 +45,12 @@ SourceGap CloudNews::gap(const std::string& body, Freshness state, double age, d
   return gap;
 }
 
+SourceGap CloudNews::gapBefore(const std::string& body) const {
+  return {body, body,
+          "TOO_NEAR " + body + ": " + std::to_string(newest_.too_near) +
+              " points of its newest message are -inf, so something nearer than the sensor can see may be within " +
+              text(newest_.blind.radius) + " m (blind_range) of it",
+          newest_.blind};
+}
+
 }  // namespace hgrid

@@ -39,6 +39,8 @@ class CloudNews {
   /// have reached by now.
   /// @param max_speed  [m/s] maximum speed of the sensor
   SourceGap gap(const std::string& body, Freshness state, double age, double max_speed) const;
+  /// Returns the SourceGap before the lens of a sensor whose newest message has points that are too near to be seen.
+  SourceGap gapBefore(const std::string& body) const;
 
  private:
   std::string sinceThen() const { return refused_.empty() ? "" : "; a later message was refused: " + refused_; }

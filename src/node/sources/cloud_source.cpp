@@ -106,8 +106,9 @@ void CloudSource::take(const CloudMessage& message) {
                                    " in the future; at most ~max_future, " + secondsText(params_.max_future) +
                                    ", is allowed");
   }
-  PointCloud cloud = readPointCloud(message.format, message.data, what_);
+  PointCloud cloud = readPointCloud(message.format, message.data, cloud_.min_range, what_);
   const std::size_t points = cloud.points.size();
+  const std::uint64_t too_near = cloud.too_near;
   const std::string frame = message.frame.empty() ? tick->world_frame : withoutSlash(message.frame);
   if (frame != frame_) {
     sink_.follow(frame);
@@ -124,10 +125,11 @@ void CloudSource::take(const CloudMessage& message) {
   cells_.forget(cellTime());
   const bool seen = cloud_.empty == EmptyCloud::clear || points >= static_cast<std::size_t>(cloud_.min_points);
   if (seen) noteNewest(stamp, now, received, world_from_sensor.translation());
+  noteTooNear(stamp, too_near, world_from_sensor.translation());
   if (seen || loaded_.cells) put();
   if (!seen) {
     throw Refusal(Code::out_of_range,
-                  "a message of " + what_ + " has " + std::to_string(points) + " finite points; it needs at least " +
+                  "a message of " + what_ + " has " + std::to_string(points) + " points; it needs at least " +
                       std::to_string(cloud_.min_points) +
                       " (min_points) to count as new data; if few points mean free space, set 'empty' of this cloud to "
                       "'clear'");
@@ -147,6 +149,16 @@ void CloudSource::noteNewest(Time stamp, Time now, std::chrono::steady_clock::ti
   loaded_.stamp = stamp;
   loaded_.latency = std::max(0.0, seconds(now - stamp));
   loaded_.sensor = sensor;
+}
+
+/// Stores whether something is nearer than the sensor can see. An older message than the one that said so does not
+/// count.
+void CloudSource::noteTooNear(Time stamp, std::uint64_t too_near, const Eigen::Vector3d& sensor) {
+  if (stamp < loaded_.blind_stamp && stamp < loaded_.stamp) return;
+  const bool is_blind = too_near >= static_cast<std::uint64_t>(cloud_.min_points);
+  loaded_.too_near = is_blind ? too_near : 0;
+  loaded_.blind_stamp = stamp;
+  loaded_.blind = {sensor, cloud_.blind_range};
 }
 
 /// Returns the time that measures the age of cells: ROS time if /clock drives it, otherwise the steady clock. So
@@ -191,6 +203,9 @@ std::vector<Voxel> CloudSource::voxelsOf(PointCloud cloud, const Pose& world_fro
   std::vector<Voxel> voxels = cells_.cellsOf(cloud.points, sensor, out_of_reach);
   ledger_.count(counter_ + "points", cloud.points.size());
   if (cloud.not_finite > 0) ledger_.count(counter_ + "points_not_finite", cloud.not_finite);
+  if (cloud.too_near > 0) ledger_.count(counter_ + "points_too_near", cloud.too_near);
+  if (cloud.no_return > 0) ledger_.count(counter_ + "points_without_return", cloud.no_return);
+  if (cloud.without_row_step) ledger_.count(counter_ + "without_row_step");
   if (out_of_reach > 0) ledger_.count(counter_ + "points_out_of_reach", out_of_reach);
   if (forgotten > 0) ledger_.count(counter_ + "cells_out_of_reach", forgotten);
   if (!self_shapes_.wanted()) return voxels;

@@ -30,7 +30,10 @@ struct LoadedCloud {
   Eigen::Vector3d corner = Eigen::Vector3d::Zero();  // [m] origin of the keys of the cells, in the world frame
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  // [m] sensor position at the newest message, in the world frame
   Time stamp{0};                                     // stamp of the newest message
-  double latency = 0.0;                              // [s] age of the newest message when it arrived
+  std::uint64_t too_near = 0;  // number of points of the newest message that are nearer than the sensor can see
+  Time blind_stamp{0};         // stamp of the message that `too_near` and `blind` are from
+  Sphere blind;                // [m, world frame] where these points may be
+  double latency = 0.0;        // [s] age of the newest message when it arrived
   std::chrono::steady_clock::time_point received{};  // when the newest message arrived
 };
 

@@ -159,7 +159,8 @@ TEST_F(Clouds, WithoutFinitePointsDoNotKeepTheCloudFresh) {
   start(1.0);
   const float nan = std::nanf("");
   const Points wall{{0.05f, 0.05f, 2.05f}};  // z is 3.05 m in "base"
-  for (const Points& blind : {Points{}, Points{{nan, nan, nan}, {nan, 0.0f, 0.0f}}}) {
+  const Points beams_without_return(441, {0.0f, 0.0f, 0.0f});
+  for (const Points& blind : {Points{}, Points{{nan, nan, nan}, {nan, 0.0f, 0.0f}}, beams_without_return}) {
     SCOPED_TRACE(std::to_string(blind.size()) + " points");
     EXPECT_EQ(askedWithFresh(wall, 0.05, 0.05, 3.05).verdict, msg::Verdict::HIT);
     sendUntil(blind, "the cloud is lost", [](const msg::Status& status) {
@@ -168,8 +169,40 @@ TEST_F(Clouds, WithoutFinitePointsDoNotKeepTheCloudFresh) {
     const Answer answer = askedAt(0.05, 0.05, 3.05);
     EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN) << "the wall may still be there";
     EXPECT_EQ(answer.unknown_because, msg::UnknownReason::INCOMPLETE);
-    EXPECT_TRUE(says(answer.summary, "finite points; it needs at least 1 (min_points)"));
+    EXPECT_TRUE(says(answer.summary, "has 0 points; it needs at least 1 (min_points)"));
   }
+}
+
+TEST_F(Clouds, BeamsWithoutReturnAreNotAtTheSensor) {
+  start(20.0);
+  const Points points{{0, 0, 0}, {0.05f, 0.05f, 2.05f}, {0, 0, 0}};
+  EXPECT_EQ(askedWithFresh(points, 0.05, 0.05, 3.05).verdict, msg::Verdict::HIT);
+  EXPECT_EQ(askedWithFresh(points, 0.0, 0.0, 1.0).verdict, msg::Verdict::CLEAR);
+  node_->waitForStatus("they are counted", [](const msg::Status& status) {
+    return counter(status, "cloud/front.points_without_return") >= 2;
+  });
+}
+
+/// Claim: where points say that something is nearer than the sensor can see, nothing near the lens is CLEAR.
+TEST_F(Clouds, WithPointsThatAreTooNearAreNotClearBeforeTheLens) {
+  start(20.0, {{"blind_range", 0.4}});
+  const float inf = INFINITY;
+  const Points wall{{0.05f, 0.05f, 2.05f}};
+  Points blind(9, {-inf, -inf, -inf});
+  blind.push_back(wall[0]);
+  sendUntil(blind, "the sensor is blind near its lens", [](const msg::Status& status) {
+    return status.world.incomplete == Names({"cloud/front"}) && !status.world.reasons.empty() &&
+           status.world.reasons[0].find("TOO_NEAR cloud/front: 9 points") == 0;
+  });
+  EXPECT_EQ(askedWithFresh(blind, 0.05, 0.05, 3.05).verdict, msg::Verdict::HIT);
+  EXPECT_EQ(askedWithFresh(blind, 0.0, 0.0, 1.5).verdict, msg::Verdict::CLEAR) << "this is 0.5 m before the lens";
+  send(cloudOf("camera", transforms_.now(), blind));
+  node_->waitForTicks(2);
+  const Answer answer = askedAt(0.0, 0.0, 1.3);
+  EXPECT_EQ(answer.verdict, msg::Verdict::UNKNOWN);
+  EXPECT_TRUE(says(answer.summary, "TOO_NEAR cloud/front: 9 points of its newest message are -inf"));
+  sendUntilComplete(wall);
+  EXPECT_EQ(askedWithFresh(wall, 0.0, 0.0, 1.3).verdict, msg::Verdict::CLEAR);
 }
 
 TEST_F(Clouds, WithTooFewPointsAddTheirCellsButDoNotKeepTheCloudFresh) {
@@ -317,7 +350,7 @@ TEST_F(Clouds, ThatAreLostSayWhatWasWrongWithTheLastMessage) {
     });
   };
   refused(cloudOf("nowhere", ros::Time(), {{0, 0, 0}}), "UNKNOWN_FRAME cloud 'front' of points: the pose of its frame");
-  refused(cloudOf("camera", ros::Time(), {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}),
+  refused(cloudOf("camera", ros::Time(), {{0, 0, 1}, {1, 0, 1}, {2, 0, 1}}),
           "LIMIT cloud 'front' of points: there would be 3 cells; at most 2 are allowed by ~map/max_leaves");
   for (const auto& status : node_->heard().status) {
     if (status->gauges.front().name != "cells.cloud/front" || status->gauges.front().value > 0.0) continue;
