@@ -51,7 +51,11 @@ struct Circles {
   }
 };
 
-std::string escaped(const std::string& text) {
+std::string localPart(const std::string& name) { return name.substr(name.find('/') + 1); }
+
+}  // namespace
+
+std::string xmlEscaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
@@ -73,10 +77,6 @@ std::string escaped(const std::string& text) {
   }
   return result;
 }
-
-std::string localPart(const std::string& name) { return name.substr(name.find('/') + 1); }
-
-}  // namespace
 
 AllowedList decidedPairs(const Structure& structure, const AllowedScope& scope) {
   std::vector<Matched> matched;
@@ -146,13 +146,13 @@ std::string srdfOf(const Structure& structure, const std::vector<PairRule>& entr
     if (!body.links || body.robot != structure.bodies[second].robot) continue;
     Element& element = by_robot.try_emplace(body.robot, Element{body.links.get(), ""}).first->second;
     element.tags += std::string("  <") + (entry.allowed ? "disable" : "enable") + "_collisions link1=\"" +
-                    escaped(localPart(entry.first)) + "\" link2=\"" + escaped(localPart(entry.second)) +
-                    "\" reason=\"" + escaped(entry.reason) + "\"/>\n";
+                    xmlEscaped(localPart(entry.first)) + "\" link2=\"" + xmlEscaped(localPart(entry.second)) +
+                    "\" reason=\"" + xmlEscaped(entry.reason) + "\"/>\n";
   }
   std::string text;
   for (const auto& robot : by_robot) {
     const auto& [links, tags] = robot.second;
-    text += "<robot name=\"" + escaped(links->modelName()) + "\">\n" + tags + "</robot>\n";
+    text += "<robot name=\"" + xmlEscaped(links->modelName()) + "\">\n" + tags + "</robot>\n";
   }
   return text;
 }

@@ -16,7 +16,7 @@ from hgrid_proximity.msg import Status
 from roslib.packages import find_node
 
 PACKAGE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
-COMPILED = ["ask_node", "check_audit", "proximity_mesh_reader", "proximity_node"]
+COMPILED = ["ask_node", "check_audit", "make_srdf", "proximity_mesh_reader", "proximity_node"]
 WRONG_ARGUMENT = {"doctor": 64}  # exit codes other than 2
 PASSES_ON = ["show"]  # gives unknown options to another program
 FROM_ROSLAUNCH = ["__name:=proximity", "__log:=" + os.devnull]

@@ -32,6 +32,9 @@ AllowedList decidedPairs(const Structure& structure, const AllowedScope& scope);
 /// Lists the rules as they were given, in their order. The globs of the scope are compared with the texts of the rules.
 AllowedList givenRules(const Structure& structure, const AllowedScope& scope);
 
+/// Returns a text in which the characters that XML reserves are written as XML wants them in an attribute.
+std::string xmlEscaped(const std::string& text);
+
 /// Writes the entries that name two links of one robot as SRDF: one `<robot>` element for each robot, sorted by the
 /// names of the robots in the scene. The name of the element is the one that the URDF gives the robot, so that other
 /// programs accept the text. Each element contains disable_collisions and enable_collisions tags in the order of the
