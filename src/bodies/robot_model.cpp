@@ -2,10 +2,46 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "hgrid_proximity/bodies/robot_model.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "geometry/infinity.h"
 
 namespace hgrid {
+namespace {
+
+/// How a joint can move.
+struct Travel {
+  double speed = kInfinity;  ///< [rad/s] or [m/s] upper bound of its speed
+  double range = kInfinity;  ///< [rad] or [m] upper bound of the absolute value of its position
+};
+
+Travel travelByLimits(const RobotLink& link) {
+  Travel travel;
+  if (link.max_velocity > 0.0) travel.speed = link.max_velocity;
+  const bool has_limits = !link.continuous && (link.lower != 0.0 || link.upper != 0.0);
+  if (has_limits) travel.range = std::max(std::abs(link.lower), std::abs(link.upper));
+  return travel;
+}
+
+/// Follows a chain of joints that mimic each other to the joint that moves by itself.
+Travel travelOf(const RobotModel& model, const RobotLink& link) {
+  const RobotLink* at = &link;
+  double factor = 1.0, offset = 0.0;
+  for (std::size_t steps = 0; !at->mimic.empty(); ++steps) {
+    const auto leader = std::find_if(model.links.begin(), model.links.end(),
+                                     [&](const RobotLink& other) { return other.joint == at->mimic; });
+    if (leader == model.links.end() || steps == model.links.size()) return {};  // unknown joint, or a circle
+    offset += factor * std::abs(at->mimic_offset);
+    factor *= std::abs(at->mimic_multiplier);
+    at = &*leader;
+  }
+  if (factor == 0.0) return {0.0, offset};
+  const Travel travel = travelByLimits(*at);
+  return {factor * travel.speed, factor * travel.range + offset};
+}
+
+}  // namespace
 
 int RobotModel::find(const std::string& link) const {
   for (std::size_t i = 0; i < links.size(); ++i) {
@@ -30,14 +66,16 @@ void findRigidGroups(RobotModel& model) {
   }
 }
 
-double speedBound(const RobotModel& model, std::uint32_t link) {
-  const double infinity = std::numeric_limits<double>::infinity();
-  double reach = 0.0;  // [m] bound of the distance from the origin of link `at` (see the loop) to the points of `link`
-  for (const BodyShape& shape : model.links[link].shapes) {
+double reachOf(const std::vector<BodyShape>& shapes) {
+  double reach = 0.0;
+  for (const BodyShape& shape : shapes) {
     reach = std::max(reach, shape.body_from_shape.translation().norm() + shape.shape.reach() + shape.padding);
   }
-  if (reach == 0.0) return 0.0;  // the link has no shape, so no point can move
-  const auto limitOf = [&](const RobotLink& at) { return at.max_velocity > 0.0 ? at.max_velocity : infinity; };
+  return reach;
+}
+
+double speedBound(const RobotModel& model, std::uint32_t link, double reach) {
+  if (reach == 0.0) return 0.0;
   double speed = 0.0;
   for (int at = static_cast<int>(link); model.links[static_cast<std::size_t>(at)].parent >= 0;) {
     const RobotLink& here = model.links[static_cast<std::size_t>(at)];
@@ -45,21 +83,26 @@ double speedBound(const RobotModel& model, std::uint32_t link) {
       case JointKind::fixed:
         break;
       case JointKind::revolute:
-        speed += limitOf(here) * reach;
+        speed += travelOf(model, here).speed * reach;
         break;
-      case JointKind::prismatic:
-        speed += limitOf(here);
-        reach +=
-            here.lower == 0.0 && here.upper == 0.0 ? infinity : std::max(std::abs(here.lower), std::abs(here.upper));
+      case JointKind::prismatic: {
+        const Travel travel = travelOf(model, here);
+        speed += travel.speed;
+        reach += travel.range;
         break;
+      }
       case JointKind::planar:
       case JointKind::floating:
-        return infinity;
+        return kInfinity;
     }
     reach += here.parent_from_joint.translation().norm();
     at = here.parent;
   }
-  return speed;
+  return std::isnan(speed) ? kInfinity : speed;
+}
+
+double speedBound(const RobotModel& model, std::uint32_t link) {
+  return speedBound(model, link, reachOf(model.links[link].shapes));
 }
 
 }  // namespace hgrid

@@ -16,6 +16,12 @@
 namespace hgrid {
 namespace {
 
+/// Returns whether a body is where its pose says: FRESH, and not so old that it may be elsewhere.
+bool isFresh(const Snapshot& snapshot, std::uint32_t body) {
+  const BodyPose& pose = snapshot.poses()[body];
+  return pose.state == Freshness::fresh && pose.reach == 0.0;
+}
+
 using Clock = std::chrono::steady_clock;
 
 constexpr double kLittle = 0.25;         // a move is small if it is less than this fraction of the report distance
@@ -90,7 +96,8 @@ void PairMeter::State::recall(const Snapshot& snapshot) {
   auto last = known.begin();
   for (const NearPair& pair : snapshot.pairs()) {
     // If margins grow because data is old, the report distance grows by the same length.
-    const double report = options.report_distance + snapshot.growthOf(pair.first, pair.second);
+    const double report = structure.pair_margins.of(pair.first, pair.second).value_or(options.report_distance) +
+                          snapshot.growthOf(pair.first, pair.second);
     const auto before = [&](const Known& one) {
       return one.first != pair.first ? one.first < pair.first : one.second < pair.second;
     };
@@ -227,13 +234,19 @@ PairDistance PairMeter::State::entryOf(const Snapshot& snapshot, const Job& job)
   }
   const bool has_distance = entry.proximity.status != Measure::not_measured;
   if (job.known.proximity.status != Measure::not_measured) entry.measured = job.known.measured_at;
-  entry.lower_bound = has_distance ? entry.proximity.distance : job.bound;
+  const double at_poses = has_distance ? entry.proximity.distance : job.bound;
+  entry.lower_bound = std::max(0.0, at_poses - snapshot.reachBetween(entry.first, entry.second));
   const double least = std::isnan(entry.proximity.distance) ? entry.gap : entry.proximity.distance;
+  if (!isFresh(snapshot, entry.first) || !isFresh(snapshot, entry.second)) entry.closing_speed = Proximity::kUnknown;
   if (isContact(entry.proximity.status)) {
+    entry.approach = Approach::contact;
     entry.time_to_contact = 0.0;
+  } else if (entry.closing_speed > 0.0) {
+    entry.approach = Approach::approaching;
+    entry.time_to_contact = least / entry.closing_speed;
   } else if (!std::isnan(entry.closing_speed)) {
-    entry.time_to_contact =
-        entry.closing_speed > 0.0 ? least / entry.closing_speed : std::numeric_limits<double>::infinity();
+    entry.approach = Approach::apart;
+    entry.time_to_contact = std::numeric_limits<double>::infinity();
   }
   entry.no_contact_before = snapshot.noContactBefore(entry.first, entry.second, least);
   return entry;

@@ -12,7 +12,6 @@
 #include "hgrid_proximity/queries/query.h"
 #include "queries/doubtful_body.h"
 #include "queries/question.h"
-#include "world/pair_margin.h"
 
 namespace hgrid {
 namespace {
@@ -22,20 +21,13 @@ void note(QueryAnswer& answer, Unknown because, std::string reason) {
   answer.reason = std::move(reason);
 }
 
-/// Returns by how much [m] the distance of two bodies may be smaller than at their poses. It is 0 for links of one
-/// robot whose poses have the same age: they have not moved relative to each other.
-double reachBetween(const Snapshot& snapshot, std::uint32_t first, std::uint32_t second) {
-  const BodyPose &a = snapshot.poses()[first], &b = snapshot.poses()[second];
-  return movedTogether(snapshot.structure(), first, a.cohort, second, b.cohort) ? 0.0 : a.reach + b.reach;
-}
-
 /// Returns whether a body may have come into the region since its pose, because it moved or the asking body moved.
 bool mayBeInRegion(const Question& question, std::uint32_t body) {
   const Snapshot& snapshot = question.snapshot;
   const Structure& structure = snapshot.structure();
   const NarrowPhase* exact = question.scope.exact;
   const std::uint32_t asking = question.askingBody();
-  const double reach = asking == Structure::kNone ? snapshot.poses()[body].reach : reachBetween(snapshot, asking, body);
+  const double reach = asking == Structure::kNone ? snapshot.poses()[body].reach : snapshot.reachBetween(asking, body);
   if (!(reach > 0.0)) return false;
   if (!(reach <= kQueryReach)) return true;
   for (ProxyId proxy = structure.first_proxy[body]; proxy < structure.first_proxy[body + 1]; ++proxy) {

@@ -3,6 +3,8 @@
 //
 // Decides which sources of a snapshot are complete, and why the other sources are not.
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/refusal.h"
@@ -21,6 +23,56 @@ SourceGap gapOfAbsent(const std::string& pattern) {
                             : source,
           pattern,
           "REQUIRED '" + printable(pattern) + "': no body matches this pattern; add such a body, or do not require it"};
+}
+
+/// Returns whether a link is stale and its robot has a link in another rigid group with which it is a pair. The margins
+/// of such pairs do not grow, see movedTogether().
+bool mayHaveBent(const Structure& structure, std::uint32_t body, const BodyPose& pose) {
+  if (pose.state < Freshness::stale || pose.reach == 0.0 || pose.cohort == 0) return false;
+  const Body& link = structure.bodies[body];
+  if (link.robot.empty()) return false;
+  const auto isPartner = [&](std::uint32_t other) {
+    return structure.bodies[other].rigid_group != link.rigid_group && !structure.filter.allowed(body, other);
+  };
+  // The bodies of a source follow each other, because they are sorted by name.
+  const std::uint32_t source = structure.source_of[body];
+  for (std::uint32_t i = body; i-- > 0 && structure.source_of[i] == source;) {
+    if (isPartner(i)) return true;
+  }
+  for (std::uint32_t i = body + 1; i < structure.bodies.size() && structure.source_of[i] == source; ++i) {
+    if (isPartner(i)) return true;
+  }
+  return false;
+}
+
+/// Returns whether a body may be farther from its pose than the margins of its pairs have grown.
+bool isOutgrown(const BodyPose& pose) { return pose.reach > pose.growth; }
+
+/// Returns whether a body makes its source incomplete.
+bool leavesGap(const Structure& structure, std::uint32_t body, const BodyPose& pose) {
+  const Body& what = structure.bodies[body];
+  if (pose.state >= Freshness::lost || (!what.covered && !what.waived)) return true;
+  return isOutgrown(pose) || mayHaveBent(structure, body, pose);
+}
+
+/// Returns a length [m] with three digits.
+std::string metersText(double length) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g m", length);
+  return text;
+}
+
+/// Returns why a body makes its source incomplete, or an empty text if it does not.
+std::string gapSentence(const Structure& structure, std::uint32_t body, const BodyPose& pose) {
+  const Body& what = structure.bodies[body];
+  std::string gap = gapLeftBy(what, pose);
+  if (!gap.empty() || !leavesGap(structure, body, pose)) return gap;
+  gap = std::string(name(pose.state)) + " " + what.name + ": its pose is " + secondsText(pose.age) + " old (frame '" +
+        printable(what.frame) + "'), so ";
+  if (!isOutgrown(pose)) return gap + "the joints may have moved, for which pairs of the robot's own links do not grow";
+  const bool known = std::isfinite(pose.reach);
+  return gap + "it may have moved " + (known ? metersText(pose.reach) : "any distance") +
+         ", but margins grow by at most " + metersText(pose.growth) + " (growth_cap)";
 }
 
 void sortNames(std::vector<std::string>& names) {
@@ -77,7 +129,7 @@ void Scene::State::fillDoubtful(Snapshot& snapshot) const {
     if (!covered) ++next_uncovered;
     if (covered && pose.state < Freshness::stale && pose.reach == 0.0) continue;
     snapshot.doubtful_.push_back(i);
-    if (covered && pose.state < Freshness::lost) continue;
+    if (!leavesGap(*structure, i, pose)) continue;
     if (snapshot.hasGap(structure->bodies[i].name)) continue;  // the gap is already counted as a reason
     worst_first.emplace_back(-static_cast<int>(pose.state), i);
     incomplete[structure->source_of[i]] = true;
@@ -90,7 +142,7 @@ void Scene::State::fillDoubtful(Snapshot& snapshot) const {
   std::partial_sort(worst_first.begin(), worst_first.begin() + static_cast<std::ptrdiff_t>(listed), worst_first.end());
   for (std::size_t i = 0; i < listed; ++i) {
     const std::uint32_t body = worst_first[i].second;
-    snapshot.reasons_.push_back(gapLeftBy(structure->bodies[body], snapshot.poses_[body]));
+    snapshot.reasons_.push_back(gapSentence(*structure, body, snapshot.poses_[body]));
   }
 }
 
@@ -101,9 +153,10 @@ std::string Snapshot::reasonOf(const std::string& source) const {
   std::uint32_t worst = Structure::kNone;
   for (const std::uint32_t body : doubtful_) {
     if (structure_->sources[structure_->source_of[body]] != source) continue;
+    if (!leavesGap(*structure_, body, poses_[body])) continue;
     if (worst == Structure::kNone || poses_[body].state > poses_[worst].state) worst = body;
   }
-  return worst == Structure::kNone ? std::string() : gapLeftBy(structure_->bodies[worst], poses_[worst]);
+  return worst == Structure::kNone ? std::string() : gapSentence(*structure_, worst, poses_[worst]);
 }
 
 }  // namespace hgrid

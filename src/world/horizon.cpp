@@ -17,6 +17,19 @@ double shiftOf(const Aabb& before, const Aabb& now) {
                   (now.max - before.max).cast<double>().cwiseAbs().maxCoeff());
 }
 
+/// Returns a box that contains a box at each time while it went from `from` to `to`, if no face went a way longer than
+/// `way` [m]. A face that goes from a to b on such a way is never beyond (a + b + way) / 2.
+Aabb sweptBox(const Aabb& from, const Aabb& to, double way) {
+  Aabb swept;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = 0.5 * (double(from.min[axis]) + double(to.min[axis]) - way);
+    const double high = 0.5 * (double(from.max[axis]) + double(to.max[axis]) + way);
+    swept.min[axis] = std::min({from.min[axis], to.min[axis], roundedDown(low)});
+    swept.max[axis] = std::max({from.max[axis], to.max[axis], roundedUp(high)});
+  }
+  return swept;
+}
+
 /// Returns the largest error [m] that the rounding of boxes can add to shiftOf().
 double roundingOf(const Aabb& box) {
   return 4e-7 * std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff()) + 1e-9;
@@ -56,13 +69,16 @@ void Horizon::matchBodies(const Structure& structure) {
 void Horizon::sweep(const Structure& structure, std::uint32_t body, const BodyPose& pose) {
   const std::uint32_t known = last_body_[body];
   if (known == Structure::kNone || last_.stamps[known] == kNever) return;
-  const double may = structure.bodies[body].max_speed * std::max(0.0, seconds(pose.stamp - last_.stamps[known]));
+  const Body& what = structure.bodies[body];
+  const double time = std::max(0.0, seconds(pose.stamp - last_.stamps[known]));
+  const double may = what.max_speed * time;
+  if (what.mobility != Mobility::fixed && time > 0.0) way_[body] = std::isfinite(may) ? may : cap_;
   const ProxyId first = structure.first_proxy[body], last_first = last_.structure->first_proxy[known];
   for (ProxyId proxy = first; proxy < structure.first_proxy[body + 1]; ++proxy) {
     const Aabb &from = last_.boxes[last_first + (proxy - first)], &to = now_.boxes[proxy];
-    if (from == to) continue;
+    if (from == to && way_[body] == 0.0) continue;
     before_[proxy] = from;
-    swept_[proxy] = {from.min.cwiseMin(to.min), from.max.cwiseMax(to.max)};
+    swept_[proxy] = sweptBox(from, to, way_[body]);
     if (shiftOf(from, to) > may + roundingOf(to)) teleported_[body] = true;
   }
 }
@@ -79,6 +95,7 @@ void Horizon::step(const std::shared_ptr<const Structure>& structure, const std:
   teleported_.assign(count, false);
   reach_.resize(count);
   drift_.resize(count);
+  way_.assign(count, 0.0);
   for (std::uint32_t body = 0; body < count; ++body) {
     const BodyPose& pose = poses[body];
     drift_[body] = driftOf(structure->bodies[body], pose, stamp);

@@ -36,7 +36,11 @@ class Horizon {
   double reachOf(std::uint32_t body) const { return on() ? reach_[body] : 0.0; }
   /// Returns how far [m] a body can have moved from the stamp of its pose to the time of the tick.
   double driftOf(std::uint32_t body) const { return on() ? drift_[body] : 0.0; }
-  /// Returns the box around a proxy's boxes of this tick and of the last accepted tick.
+  /// Returns an upper bound [m] of the length of the way that any point of a body went since the last accepted tick. 0
+  /// if the body had no pose in that tick.
+  double wayOf(std::uint32_t body) const { return on() ? way_[body] : 0.0; }
+  /// Returns a box that contains a proxy at each time since the last accepted tick, if the body kept its max_speed. A
+  /// body that turns may leave the box around its boxes of both ticks.
   const Aabb& swept(ProxyId proxy) const { return swept_[proxy]; }
   /// Returns the box of a proxy in the last accepted tick. If the proxy had no box in that tick, returns its present
   /// box.
@@ -62,12 +66,13 @@ class Horizon {
   };
   Kept last_, now_;                        // last_: the last accepted tick; now_: the tick of the last step()
   std::vector<Aabb> before_;               // for each proxy: see before()
-  std::vector<Aabb> swept_;                // for each proxy: box around its box in the last tick and its present box
+  std::vector<Aabb> swept_;                // for each proxy: see swept()
   std::vector<std::uint32_t> last_body_;   // for each body: its index in last_.structure, or Structure::kNone
   std::vector<std::uint32_t> last_slots_;  // buffer of matchBodies(): for each slot: index in last_.structure
   std::vector<bool> teleported_;           // for each body: see teleported()
   std::vector<double> reach_;              // [m] for each body: see reachOf()
   std::vector<double> drift_;              // [m] for each body: see driftOf()
+  std::vector<double> way_;                // [m] for each body: see wayOf()
 };
 
 }  // namespace hgrid

@@ -66,14 +66,15 @@ bool MapPairs::find(const Snapshot& snapshot, const Horizon& horizon, std::size_
 
 /// Returns whether a box may have come within the margin of a cell between the last tick and this tick. Compares in the
 /// frame of the map, so a common movement of map and box does not count.
-/// @param drift  [m] how far both can have moved since their poses, which may be older than the tick
+/// @param aside  [m] how far both can have been beside the straight way between their poses of both ticks, or can have
+///                moved since their poses, which may be older than the tick
 bool MapPairs::passed(const OfMap& map, ProxyId proxy, const Snapshot& snapshot, const Horizon& horizon, double margin,
-                      double drift) const {
+                      double aside) const {
   const Aabb &from = horizon.before(proxy), &to = snapshot.boxes()[proxy];
-  if (drift == 0.0 && from == to && map.mapFromWorldBefore().matrix() == map.map_from_world.matrix()) return false;
+  if (aside == 0.0 && from == to && map.mapFromWorldBefore().matrix() == map.map_from_world.matrix()) return false;
   const Eigen::AlignedBox3d swept = boxInMap(map.mapFromWorldBefore(), from, snapshot.origin())
                                         .merged(boxInMap(map.map_from_world, to, snapshot.origin()));
-  return gapTo(*map.cells->grid, swept, margin + drift) <= margin + drift;
+  return gapTo(*map.cells->grid, swept, margin + aside) <= margin + aside;
 }
 
 /// Adds the pairs of a map with the shapes of a body. `left` is the number of pairs that may still be added.
@@ -89,13 +90,14 @@ bool MapPairs::addShapes(OfMap& map, std::uint32_t number, std::uint32_t body, c
   const double margin =
       pairMargin(structure, body, stalenessOf(snapshot.poses()[body]), number, stalenessOf(snapshot.poses()[number]));
   const double can_go = horizon.reachOf(number) + horizon.reachOf(body), up_to = std::max(margin, can_go);
-  const double drift = horizon.driftOf(number) + horizon.driftOf(body);
+  const double aside =
+      horizon.driftOf(number) + horizon.driftOf(body) + 0.5 * (horizon.wayOf(number) + horizon.wayOf(body));
   for (ProxyId proxy = structure.first_proxy[body]; proxy < structure.first_proxy[body + 1]; ++proxy) {
     const Aabb& box = snapshot.boxes()[proxy];
     Gap& known = map.gaps[proxy];
     if (known.up_to < up_to || known.box != box) known = {box, up_to, gapOf(box, up_to)};
     const bool near = known.gap <= margin, soon = known.gap <= can_go;
-    if (!near && !soon && !(horizon.on() && passed(map, proxy, snapshot, horizon, margin, drift))) continue;
+    if (!near && !soon && !(horizon.on() && passed(map, proxy, snapshot, horizon, margin, aside))) continue;
     if (left == 0) return false;
     --left;
     add(first, second, near || soon ? known.gap : gapOf(box, kInfinity), margin, near);

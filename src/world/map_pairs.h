@@ -51,7 +51,7 @@ class MapPairs {
   void renumber(const Structure& structure);
   void recall(const Snapshot& snapshot);
   bool passed(const OfMap& map, ProxyId proxy, const Snapshot& snapshot, const Horizon& horizon, double margin,
-              double drift) const;
+              double aside) const;
   bool addShapes(OfMap& map, std::uint32_t number, std::uint32_t body, const Snapshot& snapshot, const Horizon& horizon,
                  std::size_t& left, const Add& add) const;
 

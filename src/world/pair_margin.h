@@ -18,12 +18,13 @@ inline Staleness stalenessOf(const BodyPose& pose) { return {pose.growth, pose.c
 
 /// Returns the configured margin [m] of a pair: the margin that it has while both bodies are not stale.
 inline double configuredMargin(const Structure& structure, std::uint32_t first, std::uint32_t second) {
-  if (const auto own = structure.pair_margins.of(first, second)) return std::max(structure.least_margin, *own);
+  if (const auto own = structure.pair_margins.of(first, second)) return *own;
   return std::max(structure.margin[first], structure.margin[second]);
 }
 
-/// Returns whether two bodies are links of one robot with poses of the same age. The relative pose of such links is
-/// correct even if the poses are old.
+/// Returns whether two bodies are links of one robot with poses of the same age. The poses of such links fit together,
+/// even if they are old. So their margins do not grow, which would report all links of a robot that is silent for a
+/// moment. But its joints may have moved since; gapLeftBy() makes the robot incomplete then.
 inline bool movedTogether(const Structure& structure, std::uint32_t first, std::uint32_t cohort_of_first,
                           std::uint32_t second, std::uint32_t cohort_of_second) {
   if (cohort_of_first == 0 || cohort_of_first != cohort_of_second) return false;

@@ -63,11 +63,13 @@ PlanePairs::Meeting PlanePairs::meetingOf(const OfPlane& plane, std::uint32_t bo
   result.near = result.gap <= result.margin;
   result.soon = false;
   if (result.near || !horizon.on()) return result;
-  // In the frame of the plane, the box swept a convex region since the last tick. So one of its two ends is nearest.
+  // A distance that went from `before` to the present gap while it changed by at most `way` was never less than half of
+  // before + gap - way.
   const double before = distance(plane.was_placed ? plane.before : plane.now, horizon.before(box));
+  const double way = horizon.wayOf(body) + horizon.wayOf(other);
+  const double least = std::min({before, result.gap, 0.5 * (before + result.gap - way)});
   result.soon = result.gap <= horizon.reachOf(body) + horizon.reachOf(other) ||
-                before <= result.margin + horizon.driftOf(body) + horizon.driftOf(other) ||
-                result.gap <= result.margin + horizon.driftOf(body) + horizon.driftOf(other);
+                least <= result.margin + horizon.driftOf(body) + horizon.driftOf(other);
   return result;
 }
 

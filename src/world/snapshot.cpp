@@ -90,6 +90,15 @@ double Snapshot::growthOf(std::uint32_t first, std::uint32_t second) const {
   return widening(*structure_, first, stalenessOf(poses_[first]), second, stalenessOf(poses_[second]));
 }
 
+double Snapshot::reachBetween(std::uint32_t first, std::uint32_t second) const {
+  const BodyPose &a = poses_[first], &b = poses_[second];
+  if (movedTogether(*structure_, first, a.cohort, second, b.cohort)) {
+    const bool rigid = structure_->bodies[first].rigid_group == structure_->bodies[second].rigid_group;
+    if (rigid || std::max(a.state, b.state) < Freshness::stale) return 0.0;
+  }
+  return a.reach + b.reach;
+}
+
 bool Snapshot::hasGap(const std::string& body) const {
   return std::any_of(gaps_.begin(), gaps_.end(), [&](const SourceGap& gap) { return gap.bodies == body; });
 }
@@ -101,7 +110,7 @@ double Snapshot::noContactBefore(std::uint32_t first, std::uint32_t second, doub
     if (body.mobility == Mobility::fixed) continue;
     if (!std::isfinite(body.speed_bound)) return std::numeric_limits<double>::quiet_NaN();
     speed += body.speed_bound;
-    left -= body.speed_bound * std::max(0.0, seconds(stamp_ - poses_[i].stamp));
+    left -= body.speed_bound * std::abs(seconds(stamp_ - poses_[i].stamp));
   }
   left = std::max(0.0, left);
   if (left == 0.0) return 0.0;

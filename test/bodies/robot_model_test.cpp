@@ -103,6 +103,59 @@ TEST(SpeedBound, IsInfiniteWhereAnEndlessSlideIsTurned) {
   EXPECT_LT(speedBound(model, 2), kInfinity);
 }
 
+/// Returns a lift of three stages. The second one goes twice as far as the first one, the third one three times as far
+/// as the second one; their own limits are smaller than that. An arm of 0.9 m and a ball of 0.1 m turn at the end.
+RobotModel telescope() {
+  RobotModel model;
+  addLink(model, "base", -1, JointKind::fixed, false);
+  for (int stage = 1; stage <= 3; ++stage) {
+    addLink(model, std::to_string(stage), stage - 1, JointKind::prismatic, false);
+    RobotLink& link = model.links.back();
+    link.max_velocity = 0.5, link.upper = 1.0;
+    if (stage > 1) link.mimic = std::to_string(stage - 1) + "_joint", link.mimic_multiplier = stage == 2 ? -2.0 : 3.0;
+    if (stage == 3) link.mimic_offset = -0.25;
+  }
+  addLink(model, "arm", 3);
+  model.links.back().shapes[0].body_from_shape.translation() << 0.9, 0, 0;
+  model.links.back().max_velocity = 1.0;
+  return model;
+}
+
+TEST(SpeedBound, OfAMimickingJointIsThatOfTheJointItFollows) {
+  RobotModel model = telescope();
+  EXPECT_DOUBLE_EQ(speedBound(model, 4), 0.5 + 2 * 0.5 + 6 * 0.5 + 1.0);
+  EXPECT_DOUBLE_EQ(speedBound(model, 4, 3.0), 0.5 + 2 * 0.5 + 6 * 0.5 + 3.0) << "something that it carries reaches out";
+  model.links[3].joint_kind = JointKind::revolute;  // the last stage turns instead
+  EXPECT_DOUBLE_EQ(speedBound(model, 4), 0.5 + 2 * 0.5 + 6 * 0.5 * 1.0 + 1.0);
+  model.links[1].joint_kind = JointKind::revolute;  // it turns the stage that slides as far as 2 m
+  EXPECT_DOUBLE_EQ(speedBound(model, 4), 0.5 * (1.0 + 2.0) + 2 * 0.5 + 6 * 0.5 * 1.0 + 1.0);
+}
+
+TEST(SpeedBound, OfASlideThatMimicsCountsItsOffset) {
+  RobotModel model = telescope();
+  model.links[1].joint_kind = model.links[2].joint_kind = JointKind::revolute;
+  // The joints of stages 1 and 2 turn the arm and the stage that slides as far as 6 * 1 m + 0.25 m.
+  EXPECT_DOUBLE_EQ(speedBound(model, 4), (0.5 + 2 * 0.5) * (1.0 + 6.25) + 6 * 0.5 + 1.0);
+}
+
+TEST(SpeedBound, OfAJointThatFollowsNothingKnownIsInfinite) {
+  RobotModel model = telescope();
+  model.links[1].max_velocity = 0.0;
+  EXPECT_EQ(speedBound(model, 4), kInfinity) << "the joint that the others follow has no limit";
+  model = telescope();
+  model.links[2].mimic = "nobody";
+  EXPECT_EQ(speedBound(model, 4), kInfinity);
+  model = telescope();
+  model.links[1].mimic = "3_joint";
+  EXPECT_EQ(speedBound(model, 4), kInfinity) << "the three joints follow each other in a circle";
+  model = telescope();
+  model.links[1].max_velocity = 0.0;
+  model.links[2].mimic_multiplier = 0.0;
+  EXPECT_EQ(speedBound(model, 4), kInfinity);
+  model.links[1].max_velocity = 0.5;
+  EXPECT_DOUBLE_EQ(speedBound(model, 4), 0.5 + 1.0) << "stages 2 and 3 stay where they are";
+}
+
 /// Returns the largest speed [m/s] that was found for points on the shapes of the last link of a chain. Tries random
 /// positions and velocities of the joints.
 double fastestPoint(const RobotModel& model, Random& random) {

@@ -339,6 +339,29 @@ TEST_F(PairMeterTest, NoContactBeforeRestsOnBoundsThatSomebodyVouchesFor) {
   }
 }
 
+/// Claim: what is said about the distance now counts the age of poses: bounds get smaller, estimates become unknown.
+TEST_F(PairMeterTest, OldPosesLowerTheBoundAndEndTheEstimates) {
+  const BodyId a = add("a", 0.0), b = add("b", 1.19);
+  PairMeter meter = meterOf(0.3);
+  std::shared_ptr<const PairDistances> found;
+  for (int step = 0; step <= 20; ++step) {
+    scene_.place(b, at(1.19 - 0.001 * step), std::chrono::milliseconds(2 * step + 1));
+    found = measure(meter, 2 * step + 1);
+  }
+  ASSERT_EQ(found->pairs.size(), 1u);
+  EXPECT_EQ(found->pairs[0].approach, Approach::approaching);
+  EXPECT_EQ(found->pairs[0].lower_bound, found->pairs[0].proximity.distance);
+  scene_.setState(a, Freshness::stale, 0.3);
+  found = measure(meter, 43);
+  ASSERT_EQ(found->pairs.size(), 1u);
+  const PairDistance& pair = found->pairs[0];
+  EXPECT_NEAR(pair.proximity.distance, 0.17, 1e-9) << "at the poses";
+  EXPECT_NEAR(pair.lower_bound, std::max(0.0, 0.17 - snapshot_->poses()[0].reach), 1e-9);
+  EXPECT_GT(snapshot_->poses()[0].reach, 0.0);
+  EXPECT_EQ(pair.approach, Approach::unknown);
+  EXPECT_TRUE(std::isnan(pair.closing_speed) && std::isnan(pair.time_to_contact));
+}
+
 TEST_F(PairMeterTest, APairThatTheSolverFailsOnIsKeptAsContactAndCounted) {
   add("a", 0.0);
   add("b", 1.1);

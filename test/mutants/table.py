@@ -85,6 +85,22 @@ SCENE_MATRIX = "node/moveit/scene_matrix.cpp"
 PLACED = "node/world/placed_obstacle.cpp"
 
 CORE = [
+    ("a joint that mimics has its own limits", "bodies/robot_model.cpp", "for (std::size_t steps = 0; !at->mimic.empty(); ++steps) {",
+     "for (std::size_t steps = 0; false; ++steps) {"),
+    ("the offset of a slide that mimics is lost", "bodies/robot_model.cpp", "factor * travel.range + offset};",
+     "factor * travel.range};"),
+    ("all links of two adjacent groups may touch", "bodies/link_matrix.cpp", "children = nearest.from(below);",
+     "children = members[group];"),
+    ("a swept box is the box around both ends", "world/horizon.cpp", "sweptBox(from, to, way_[body]);",
+     "sweptBox(from, to, 0.0);"),
+    ("a plane is compared with the ends of a way only", "world/plane_pairs.cpp", "0.5 * (before + result.gap - way)});",
+     "result.gap});"),
+    ("stale links of a robot have not moved against each other", "world/snapshot.cpp",
+     "if (rigid || std::max(a.state, b.state) < Freshness::stale) return 0.0;", "return rigid ? 0.0 : 0.0;"),
+    ("a body that outgrew its margin leaves no gap", "world/completeness.cpp",
+     "return isOutgrown(pose) || mayHaveBent(structure, body, pose);", "return mayHaveBent(structure, body, pose);"),
+    ("the age of a pose does not lower a bound", "distances/pair_meter.cpp",
+     "at_poses - snapshot.reachBetween(entry.first, entry.second)", "at_poses"),
     ("a margin that changes at run time is not used", SCENE, "  s.options.margin = tuning.margin;\n", ""),
     ("a change at run time uses what the last commit computed", SCENE,
      "  s.options_changed = true;\n", ""),

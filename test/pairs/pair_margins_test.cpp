@@ -48,7 +48,7 @@ TEST(PairMargins, SelectPairsInPlaceOfTheBodiesMargins) {
       put(scene, test::ball("c"), at(1.0 + gap, 1.35));
       const auto snapshot = scene.commit(Time{1}, {});
       const test::NamePairs pairs = test::namedPairs(*snapshot);
-      EXPECT_EQ(pairs.count({"obstacle/a", "obstacle/b"}) == 1, gap <= std::max(0.1, told));
+      EXPECT_EQ(pairs.count({"obstacle/a", "obstacle/b"}) == 1, gap <= told);
       EXPECT_EQ(pairs.count({"obstacle/b", "obstacle/c"}), 1u);
     }
   }

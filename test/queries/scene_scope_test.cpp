@@ -63,7 +63,7 @@ TEST(Scope, ALostCameraLeavesQuestionsAboutTheRobotClear) {
     EXPECT_EQ(query(snapshot, kPlace, scope).verdict, Verdict::clear);
   }
   for (const auto& scope : {scopeOf({}), scopeOf({"*"}), scopeOf({"cloud/*"}), scopeOf({}, {"cloud/rear"}),
-                            scopeOf({}, {"cloud/??????"}), scopeOf({"robot/*", "*front"})}) {
+                            scopeOf({}, {"cloud/*rear"}), scopeOf({"robot/*", "*front"})}) {
     const QueryAnswer answer = query(snapshot, kPlace, scope);
     EXPECT_EQ(answer.verdict, Verdict::unknown);
     EXPECT_EQ(answer.because, Unknown::incomplete);
@@ -74,11 +74,11 @@ TEST(Scope, ALostCameraLeavesQuestionsAboutTheRobotClear) {
 TEST(Scope, ARobotWithoutAModelMakesUnknownWhatCanBeOneOfItsLinks) {
   Cell cell;
   const Snapshot& snapshot = cell.now({kNoRobot});
-  for (const auto& scope : {scopeOf({"robot/*"}), scopeOf({}, {"left/*"}), scopeOf({}, {"l*"}), scopeOf({"?obot/*"})}) {
+  for (const auto& scope : {scopeOf({"robot/*"}), scopeOf({}, {"left/*"}), scopeOf({}, {"l*"}), scopeOf({"rob*t/*"})}) {
     EXPECT_EQ(query(snapshot, kPlace, scope).verdict, Verdict::clear);
   }
   for (const auto& scope : {scopeOf({}), scopeOf({"*/tool"}), scopeOf({"left/gripper"}), scopeOf({}, {"left/gripper"}),
-                            scopeOf({}, {"left/?*"})}) {
+                            scopeOf({}, {"left/*a"})}) {
     EXPECT_EQ(query(snapshot, kPlace, scope).verdict, Verdict::unknown);
   }
 }
@@ -111,10 +111,32 @@ TEST(Scope, ABodyWithAnOldPoseCanHaveMovedAlthoughItIsFreshAndMarginsDoNotGrow) 
   const BodyId link = test::put(scene, linkOf("robot", "tool", 1.0), test::at(0));
   scene.setState(link, Freshness::fresh, 2.0);
   const auto snapshot = scene.commit(Time{1}, {});
-  ASSERT_TRUE(snapshot->complete());
+  EXPECT_FALSE(snapshot->complete()) << "pairs that the body can have now are not listed";
   EXPECT_EQ(query(*snapshot, Sphere{{2.0, 0, 0}, 0.5}, {}).verdict, Verdict::unknown)
       << "the body can have come 2 m nearer";
   EXPECT_EQ(query(*snapshot, Sphere{{9.0, 0, 0}, 0.5}, {}).verdict, Verdict::clear);
+}
+
+/// Claim: links of one robot whose joint states stopped may have moved against each other, except those of one rigid
+/// group, and except while their poses are not stale.
+TEST(Scope, StaleLinksOfOneRobotMayHaveMovedAgainstEachOther) {
+  Scene scene(SceneOptions{});
+  std::vector<BodyId> links;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    Body link = linkOf("robot", std::to_string(i), 0.5);
+    link.rigid_group = i / 2;  // links 0 and 1 are of one group
+    links.push_back(test::put(scene, link, test::at(3.0 * i)));
+  }
+  const auto verdict = [&](Freshness state, double age, const std::string& other) {
+    for (const BodyId id : links) scene.setState(id, state, age, 7);
+    const auto snapshot = scene.commit(Time{1}, {});
+    return nearest(*snapshot, snapshot->structure().find("robot/1"), 0.5, scopeOf({other})).verdict;
+  };
+  EXPECT_EQ(verdict(Freshness::late, 5.0, "robot/2"), Verdict::clear);
+  EXPECT_EQ(verdict(Freshness::stale, 1.0, "robot/2"), Verdict::clear) << "each of them may have moved 0.5 m";
+  EXPECT_EQ(verdict(Freshness::stale, 2.0, "robot/2"), Verdict::unknown);
+  EXPECT_EQ(verdict(Freshness::lost, 3600.0, "robot/2"), Verdict::unknown);
+  EXPECT_EQ(verdict(Freshness::stale, 5.0, "robot/0"), Verdict::clear) << "a rigid group does not bend";
 }
 
 TEST(Scope, ABodyWhoseNewestDataContradictsItsPoseCanBeAnywhere) {
@@ -239,7 +261,7 @@ class RandomScopes {
 
   void expectRight() {
     static const std::vector<std::vector<std::string>> globs = {
-        {}, {"*"}, {"robot/*"}, {"left/*", "obstacle/*"}, {"cloud/*"}, {"*/1"}, {"obstacle/?"}};
+        {}, {"*"}, {"robot/*"}, {"left/*", "obstacle/*"}, {"cloud/*"}, {"*/1"}, {"obstacle/*"}};
     const QueryScope scope = scopeOf(globs[std::size_t(random_.below(7))], globs[std::size_t(random_.below(7))]);
     const Eigen::Vector3d from = somewhere(), to = random_.chance(0.5) ? from : somewhere();
     const double radius = random_.uniform(0, 2);

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "test/support/maps.h"
 #include "test/support/random.h"
 #include "test/support/refusals.h"
 #include "test/support/scenes.h"
@@ -180,6 +181,43 @@ TEST_F(HorizonTest, WhatMovesAsFastAsItMayDidNotTeleport) {
   move(scene, a, at(-0.6), 511);
   EXPECT_EQ(commit(scene, 511)->pairs().at(0).flags & kTeleportFlag, kTeleportFlag)
       << "it moved 0.11 m in 10 ms, but its max_speed is 1 m/s";
+}
+
+/// Claim: a body that turns does not stay within the box around its boxes of two ticks, and what it passed outside of
+/// that box is not missed: shapes, planes and cells.
+TEST_F(HorizonTest, WhatATurningStickPassedBetweenTwoTicksIsNotMissed) {
+  for (const double turn : {0.4, 0.7, 1.1}) {  // [rad] in 10 ms
+    SCOPED_TRACE(turn);
+    SceneOptions options = withHorizon(1e-4);
+    options.margin = 0.001;
+    Scene scene(options);
+    constexpr double kLength = 2.0;
+    const auto turned = [](double angle) { return Pose(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ())); };
+    Body stick = ballOf("stick", kLength * turn / 0.01 * 1.001);
+    stick.shapes = {test::shapeOf(Shape::box({kLength, 0.01, 0.01}))};
+    stick.shapes[0].body_from_shape.translation() << 0.5 * kLength, 0, 0;
+    const BodyId id = put(scene, stick, turned(-0.5 * turn), std::chrono::milliseconds(1));
+    Body post = test::ball("post", 0.01);
+    post.mobility = Mobility::fixed;
+    put(scene, post, at(kLength));  // the end of the stick passes it in the middle of its way
+    Body wall = test::ball("wall");
+    wall.mobility = Mobility::fixed;
+    wall.shapes = {test::shapeOf(Shape::plane())};
+    put(scene, wall, at(kLength - 0.001) * Eigen::AngleAxisd(-0.5 * M_PI, Eigen::Vector3d::UnitY()));
+    Body map = test::ball("map");
+    map.name = "map/cells";
+    map.kind = BodyKind::map;
+    map.mobility = Mobility::fixed;
+    map.shapes.clear();
+    const BodyId cells = put(scene, map, at(0.0));
+    scene.setCells(cells, test::cellsOf(0.02, {{32768 + 100, 32768, 32768, 0}}));
+    EXPECT_TRUE(commit(scene, 1)->pairs().empty());
+    move(scene, id, turned(0.5 * turn), 11);
+    const auto pairs = test::namedPairs(*commit(scene, 11));
+    EXPECT_EQ(pairs.count({"obstacle/post", "obstacle/stick"}), 1u);
+    EXPECT_EQ(pairs.count({"obstacle/stick", "obstacle/wall"}), 1u);
+    EXPECT_EQ(pairs.count({"map/cells", "obstacle/stick"}), 1u);
+  }
 }
 
 TEST_F(HorizonTest, IsCheckedAtTheDoor) {

@@ -95,10 +95,13 @@ TEST(Completeness, LostFrozenAndInvalidBodiesStayWhereTheyWereAndMakeDoubt) {
   }
 }
 
-TEST(Completeness, LateAndStaleBodiesAreFlaggedOnly) {
+TEST(Completeness, LateAndStaleBodiesAreFlaggedOnlyWhileMarginsGrowFarEnough) {
   for (const Freshness state : {Freshness::late, Freshness::stale}) {
     Cell cell;
-    cell.scene.setState(cell.other, state, 0.5);
+    Body slow = test::ball("slow");
+    slow.max_speed = 0.5;
+    const BodyId id = test::put(cell.scene, slow, test::at(5));
+    cell.scene.setState(id, state, 0.5);
     EXPECT_TRUE(cell.now().complete()) << name(state);
     EXPECT_EQ(cell.snapshot->worstState(), state);
     EXPECT_EQ(cell.snapshot->maxAge(), 0.5);
@@ -161,7 +164,9 @@ TEST(Completeness, ReasonsAreAllCountedAndTheWorstFewAreListed) {
   const Freshness states[] = {Freshness::invalid, Freshness::lost, Freshness::stale, Freshness::frozen,
                               Freshness::lost};
   for (int i = 0; i < 5; ++i) {
-    scene.setState(test::put(scene, test::ball("b" + std::to_string(i)), test::at(i)), states[i], 1.0);
+    Body body = test::ball("b" + std::to_string(i));
+    body.max_speed = 0.5;
+    scene.setState(test::put(scene, body, test::at(i)), states[i], 1.0);
   }
   scene.add(test::ball("z"));
   const auto snapshot = scene.commit(Time{1}, {});

@@ -95,6 +95,19 @@ TEST_F(Growth, WithoutASpeedLimitGoesToTheCapAtOnce) {
   EXPECT_EQ(now().poses()[0].growth, 2.0);
 }
 
+/// Claim: where queries say that a body may be farther away than margins grow, the source is incomplete, too.
+TEST_F(Growth, LeavesTheSourceIncompleteWhereItIsNotEnough) {
+  const BodyId id = test::put(scene_, slowBall("a", 1.0), test::at(0));
+  for (const double age : {0.5, 1.9, 2.1, 60.0}) {
+    SCOPED_TRACE(age);
+    scene_.setState(id, Freshness::stale, age);
+    EXPECT_EQ(now().incompleteSources().empty(), age < 2.0) << "the margin grows by at most 2 m";
+    if (age < 2.0) continue;
+    EXPECT_NE(snapshot_->reasonOf("obstacle").find("it may have moved " + text(age) + " m"), std::string::npos)
+        << snapshot_->reasonOf("obstacle");
+  }
+}
+
 TEST_F(Growth, EndsWhenTheBodyIsFreshAgain) {
   const BodyId id = test::put(scene_, slowBall("a", 1.0), test::at(0));
   test::put(scene_, slowBall("b", 1.0), test::at(2));
@@ -103,6 +116,30 @@ TEST_F(Growth, EndsWhenTheBodyIsFreshAgain) {
   scene_.setState(id, Freshness::fresh, 0.0);
   EXPECT_TRUE(now().pairs().empty());
   EXPECT_EQ(snapshot_->poses()[0].growth, 0.0);
+}
+
+/// Claim: the margin that is configured for a pair counts for it, whether it is larger or smaller than the others.
+TEST_F(Growth, OfPairsWithAMarginOfTheirOwnBeginsThere) {
+  SceneOptions options = optionsWithCap(2.0);
+  options.pair_margins = {{"obstacle/a", "obstacle/b", 0.01}, {"obstacle/a", "obstacle/c", 0.8}};
+  Scene scene(options);
+  const BodyId a = test::put(scene, slowBall("a", 1.0), test::at(0));
+  test::put(scene, slowBall("b", 1.0), test::at(1.1));    // the boxes are 0.1 m apart
+  test::put(scene, slowBall("c", 1.0), test::at(-1.75));  // 0.75 m
+  EXPECT_EQ(test::namedPairs(*scene.commit(Time{1}, {})), test::NamePairs({{"obstacle/a", "obstacle/c"}}));
+  scene.setState(a, Freshness::late, 0.3);
+  EXPECT_EQ(test::namedPairs(*scene.commit(Time{2}, {})).size(), 2u) << "0.3 m and the margin of 0.01 m";
+}
+
+/// Claim: a body whose pose is newer than the tick was elsewhere at the tick, so the way back counts.
+TEST_F(Growth, TheTimeWithoutContactCountsTheWayBackFromALaterPose) {
+  Body fast = slowBall("a", 1.0);
+  fast.speed_bound = 1.0;
+  test::put(scene_, fast, test::at(0), std::chrono::milliseconds(300));
+  test::put(scene_, test::ball("wall", 0.5, Mobility::fixed), test::at(2));
+  const auto snapshot = scene_.commit(std::chrono::milliseconds(100), {});
+  EXPECT_NEAR(snapshot->noContactBefore(0, 1, 0.5), 0.3, 1e-9);
+  EXPECT_EQ(snapshot->noContactBefore(0, 1, 0.1), 0.0);
 }
 
 /// Links 0 and 2 of one arm, which no joint connects directly, and link 2 of another arm.
@@ -122,7 +159,7 @@ class RobotGrowth : public Growth {
     body.name = robot + "/" + std::to_string(link);
     body.kind = BodyKind::link;
     body.robot = robot;
-    body.link = link;
+    body.link = body.rigid_group = link;
     body.links = matrix_;
     return body;
   }
@@ -140,6 +177,18 @@ TEST_F(RobotGrowth, LinksOfOneRobotThatAreEquallyOldDoNotGrowAgainstEachOther) {
   EXPECT_EQ(test::namedPairs(now()), test::NamePairs({{"left/0", "right/2"}, {"left/2", "right/2"}}))
       << "equal cohorts of links of two robots must have no effect";
   EXPECT_EQ(snapshot_->poses()[0].growth, 1.0) << "the margins of pairs with other bodies must still grow";
+}
+
+TEST_F(RobotGrowth, ButTheRobotIsIncompleteBecauseItsJointsMayHaveMoved) {
+  scene_.setState(first_, Freshness::late, 1.0, 7);
+  scene_.setState(second_, Freshness::late, 1.0, 7);
+  EXPECT_TRUE(now().incompleteSources().empty()) << "no pose is stale yet";
+  allStale(7, 7, 9);
+  ASSERT_EQ(now().incompleteSources(), std::vector<std::string>{"left"})
+      << "the other robot has one link only, so nothing can bend";
+  EXPECT_NE(snapshot_->reasonOf("left").find("STALE left/0: its pose is 1 s old"), std::string::npos)
+      << snapshot_->reasonOf("left");
+  EXPECT_NE(snapshot_->reasonOf("left").find("joints"), std::string::npos);
 }
 
 TEST_F(RobotGrowth, LinksThatAreNotEquallyOldDo) {

@@ -22,6 +22,7 @@ struct RobotLink {
   JointKind joint_kind = JointKind::fixed;          ///< kind of the joint to the parent; fixed for the root
   Pose parent_from_joint = Pose::Identity();        ///< pose of the link in its parent at joint position 0
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< axis of the joint, a unit vector in the link's frame
+  bool has_axis = true;                             ///< false: the URDF gives an axis without length, so none is known
   double max_velocity = 0.0;                        ///< [rad/s] or [m/s] limit of the joint; 0: the URDF gives none
   double lower = 0.0;                               ///< [rad] or [m] lower joint limit; both limits 0: no limits
   double upper = 0.0;                               ///< [rad] or [m] upper joint limit
@@ -54,11 +55,19 @@ struct RobotModel {
 /// Sets `rigid_group`, `group_from_link` and `group_roots`. Links that fixed joints connect form one group.
 void findRigidGroups(RobotModel& model);
 
-/// Returns an upper bound [m/s] of the speed of all points of the link's shapes in the root frame.
+/// Returns an upper bound [m] of the distance from the origin of a body to the points of its shapes.
+double reachOf(const std::vector<BodyShape>& shapes);
+
+/// Returns an upper bound [m/s] of the speed, in the root frame, of all points that move with a link and are at most
+/// `reach` [m] from its origin. 0 if the reach is 0: then there are no points.
 ///
 /// Every moving joint between the root and the link adds to the bound. A prismatic joint adds its velocity limit. A
-/// revolute joint adds its velocity limit times the largest possible distance of the link's points from the joint. The
-/// bound is infinite if one of these joints has no velocity limit, or is planar or floating.
+/// revolute joint adds its velocity limit times the largest possible distance of the points from the joint. A joint
+/// that mimics another one moves as far and as fast as that one allows, whatever its own limits say: publishers of
+/// joint states and of tf do not obey them. The bound is infinite if one of these joints has no velocity limit, is
+/// planar or floating, or mimics a joint that the model does not have.
+double speedBound(const RobotModel& model, std::uint32_t link, double reach);
+/// As above, for the shapes of the link.
 double speedBound(const RobotModel& model, std::uint32_t link);
 
 }  // namespace hgrid

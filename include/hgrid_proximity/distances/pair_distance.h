@@ -19,6 +19,14 @@ struct NearCell {
 /// Maximum number of cells that PairDistance::cells lists.
 inline constexpr std::size_t kNearCells = 4;
 
+/// Whether two bodies come closer. The numbers are part of the interface: do not change them.
+enum class Approach : std::uint8_t {
+  unknown = 0,      ///< not measured in this tick and the tick before, or a pose is not FRESH
+  approaching = 1,  ///< they come closer
+  apart = 2,        ///< they do not come closer
+  contact = 3,      ///< they touch
+};
+
 /// The exact distance of a pair of bodies: the distance of their nearest shapes. The shapes of a map are its occupied
 /// cells.
 struct PairDistance {
@@ -29,12 +37,14 @@ struct PairDistance {
   double gap = 0.0;                ///< [m] distance of the boxes of the two bodies
   std::uint8_t flags = 0;          ///< the same as NearPair::flags
   Proximity proximity;             ///< how the nearest shapes lie relative to each other
-  /// [m] Lower bound of the distance of the pair. If the distance is known for this tick, it is the distance. If not,
-  /// it is the larger of two values: `gap`, and the last measured distance minus how far the two bodies have moved
-  /// relative to each other since that measurement.
+  /// [m] Lower bound of the distance of the pair at the stamp of the snapshot. At the poses, it is the distance if that
+  /// is known for this tick; if not, the larger of two values: `gap`, and the last measured distance minus how far the
+  /// two bodies have moved relative to each other since that measurement. If poses are old, Snapshot::reachBetween() is
+  /// subtracted.
   double lower_bound = 0.0;
-  Time measured{0};             ///< stamp of the data of the last measurement of this pair; 0: never measured
-  std::vector<NearCell> cells;  ///< only in pairs with a map or cloud: its nearest cells, nearest first
+  Time measured{0};                       ///< stamp of the data of the last measurement of this pair; 0: never measured
+  std::vector<NearCell> cells;            ///< only in pairs with a map or cloud: its nearest cells, nearest first
+  Approach approach = Approach::unknown;  ///< what the next two values mean
   double closing_speed = Proximity::kUnknown;      ///< [m/s] estimate from past ticks; > 0: the bodies come closer
   double time_to_contact = Proximity::kUnknown;    ///< [s] estimate; infinite if the bodies do not come closer
   double no_contact_before = Proximity::kUnknown;  ///< [s] the result of Snapshot::noContactBefore()

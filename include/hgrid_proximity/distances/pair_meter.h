@@ -24,9 +24,11 @@ struct PairDistances {
 
 /// The settings of a PairMeter.
 struct MeterOptions {
-  double report_distance = 0.1;  ///< [m] pairs that are farther apart are not listed
-  double budget = 0.0;           ///< [s] time for each snapshot; 0: no limit
-  int threads = 1;               ///< number of threads, 1 .. 64
+  /// [m] Pairs that are farther apart are not listed. A pair with a margin of its own (Structure::pair_margins) is
+  /// listed up to that margin instead.
+  double report_distance = 0.1;
+  double budget = 0.0;  ///< [s] time for each snapshot; 0: no limit
+  int threads = 1;      ///< number of threads, 1 .. 64
   /// The clock that the budget refers to. Any thread may call it.
   std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
 };

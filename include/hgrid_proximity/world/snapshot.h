@@ -87,6 +87,10 @@ class Snapshot {
   /// Returns the length [m] by which the margin of the pair grows because its bodies are stale. It is 0 for links of
   /// one robot whose poses have the same age.
   double growthOf(std::uint32_t first, std::uint32_t second) const;
+  /// Returns by how much [m] the distance of two bodies may be smaller than at their poses, because they may have moved
+  /// since. 0 for links of one robot whose poses have the same age, if the links are of one rigid group or the poses are
+  /// not stale yet.
+  double reachBetween(std::uint32_t first, std::uint32_t second) const;
   /// Whether every source is complete: each of its bodies is known, placed and covered, and none is lost, frozen or
   /// invalid.
   bool complete() const { return reasons_total_ == 0; }

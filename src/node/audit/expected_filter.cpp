@@ -20,7 +20,7 @@ bool fits(const std::string& glob, const std::string& name) {
       for (std::size_t n = 1; n <= name.size(); ++n) matched[n] = matched[n] || matched[n - 1];
       continue;
     }
-    for (std::size_t n = name.size(); n > 0; --n) matched[n] = matched[n - 1] && (c == '?' || c == name[n - 1]);
+    for (std::size_t n = name.size(); n > 0; --n) matched[n] = matched[n - 1] && c == name[n - 1];
     matched[0] = false;
   }
   return matched.back();
@@ -31,7 +31,7 @@ bool names(const Entry& entry, const std::string& a, const std::string& b) {
   return (fits(entry.first, a) && fits(entry.second, b)) || (fits(entry.first, b) && fits(entry.second, a));
 }
 
-bool hasWildcard(const PairRule& rule) { return (rule.first + rule.second).find_first_of("*?") != std::string::npos; }
+bool hasWildcard(const PairRule& rule) { return (rule.first + rule.second).find('*') != std::string::npos; }
 
 }  // namespace
 
@@ -79,7 +79,7 @@ double ExpectedFilter::marginOf(std::uint32_t first, std::uint32_t second) const
   const bool together = a.kind == BodyKind::link && a.robot == b.robot;  // their growth is 0 or more, so 0 is the least
   const double growth = together ? 0.0 : growthOf(first) + growthOf(second);
   for (auto entry = audited_.pair_margins.rbegin(); entry != audited_.pair_margins.rend(); ++entry) {
-    if (names(*entry, a.name, b.name)) return std::max(audited_.margin, entry->margin) + growth;
+    if (names(*entry, a.name, b.name)) return entry->margin + growth;
   }
   return std::max({audited_.margin, a.margin, b.margin}) + growth;
 }

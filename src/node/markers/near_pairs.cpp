@@ -72,7 +72,8 @@ std::vector<Candidate> candidatesOf(const Snapshot& snapshot, const PairDistance
     const auto found = listed.find({pair.first, pair.second});
     if (found != listed.end()) {
       const Proximity& proximity = found->second->proximity;
-      candidate.distance = isContact(proximity.status) ? 0.0 : found->second->lower_bound;
+      const bool known = !std::isnan(proximity.distance);
+      candidate.distance = isContact(proximity.status) ? 0.0 : known ? proximity.distance : found->second->lower_bound;
       if (proximity.on_first.allFinite() && proximity.on_second.allFinite()) candidate.measured = found->second;
     } else if (distances != nullptr) {
       candidate.distance = std::max(pair.gap, report + snapshot.growthOf(pair.first, pair.second));

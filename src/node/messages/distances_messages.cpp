@@ -52,6 +52,7 @@ boost::shared_ptr<msg::Distances> distancesMessage(const Tick& tick, const msg::
     message->point_on_second.push_back(toPoint(pair.proximity.on_second));
     message->normal.push_back(toVector(pair.proximity.normal));
     message->depth.push_back(pair.proximity.depth);
+    message->approach.push_back(static_cast<std::uint8_t>(pair.approach));
     message->closing_speed.push_back(pair.closing_speed);
     message->time_to_contact.push_back(pair.time_to_contact);
     message->no_contact_before.push_back(pair.no_contact_before);

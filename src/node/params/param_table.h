@@ -130,13 +130,15 @@ void visitParams(Visitor& v, Params& p) {
          "fixed in the world frame. The map of a topic follows the frame of its messages. pose: pose of the map in its "
          "frame. max_age: the map of a topic is not complete while its newest message is older than this; 0: off");
   v.clouds("clouds", p.clouds,
-           "list of {name, topic, resolution: [m], lifetime: [s], empty, min_points, range: [m]}: point clouds. Each "
-           "is the body cloud/name. topic: a topic of sensor_msgs/PointCloud2, default cloud. resolution: edge of the "
+           "list of {name, topic, resolution: [m], lifetime: [s], empty, min_points, range: [m], min_range: [m], "
+           "blind_range: [m]}: point clouds. Each is the body cloud/name. topic: a topic of sensor_msgs/PointCloud2, default cloud. resolution: edge of the "
            "cells that the points fill in the world frame, default 0.05. lifetime: how long a cell stays after the "
            "sensor last saw a point in it, default 1. The cloud is not complete if no newer message arrives within its "
-           "lifetime. min_points: a message with fewer finite points counts as empty, default 1. empty: what an empty "
+           "lifetime. min_points: a message with fewer points counts as empty, default 1. empty: what an empty "
            "message means: unknown (it does not count as newer, default) or clear (nothing is there). range: the "
-           "sensor sees no farther than this, default 0: no bound");
+           "sensor sees no farther than this, default 0: no bound. min_range: points nearer to the origin of their frame are "
+           "beams without return, and no points, default 0.001. blind_range: how far from the sensor something may be "
+           "if points are -inf, which means too near to be seen, default 0.5");
   v.string("map/folder", p.map_folder,
            "folder from which maps and ~load_octomap may read files; empty: no file is read");
   v.number("map/occupied_from", p.map_occupied_from, "", 0.001, 0.999,
@@ -201,8 +203,8 @@ void visitParams(Visitor& v, Params& p) {
            "list of {pattern, margin}: margin of the bodies that match the glob. A pair has the larger margin of its "
            "two bodies. If several globs match, the last one counts");
   v.pairMargins("pair_margins", p.pair_margins, 0.0, 1000.0,
-                "list of {first, second, margin}: globs over body names; pairs that match have this margin instead of "
-                "those of their bodies, but at least ~margin. If several entries match, the last one counts");
+                "list of {first, second, margin}: globs over body names; pairs that match have this margin, larger or "
+                "smaller than ~margin and those of their bodies. If several entries match, the last one counts");
   v.values("padding", p.padding, "padding", "m", 0.0, 1000.0,
            "list of {pattern, padding}: the shapes of bodies that match the glob are grown by this on all sides. If "
            "several globs match, the last one counts. Cells of maps and clouds are not grown");
@@ -250,7 +252,7 @@ void visitParams(Visitor& v, Params& p) {
   v.changeable();
   v.number("distances/max", p.distances_max, "m", 0.0, 1000.0,
            "~distances lists pairs whose shapes are at most this far apart; it must be at most ~margin, even if pairs "
-           "have larger margins; 0: the value of ~margin");
+           "have larger margins; 0: the value of ~margin. A pair of ~pair_margins is listed up to its own margin");
   v.changeable();
   v.number("distances/budget", p.distances_budget, "s", 0.0, 10.0,
            "time for measuring the distances of one tick. If it is too short for all pairs, half of it goes to the "
@@ -314,7 +316,7 @@ void visitParams(Visitor& v, Params& p) {
             "largest number of rules of the allowed-pair matrix, including those of allowed_pairs");
   v.integer("max_description_bytes", p.max_description_bytes, 1000, 256 << 20,
             "largest size of a URDF or SRDF, in bytes");
-  v.integer("max_description_depth", p.max_description_depth, 8, 256, "deepest nesting of elements in a URDF or SRDF");
+  v.integer("max_description_depth", p.max_description_depth, 8, 98, "deepest nesting of elements in a URDF or SRDF");
   v.integer("max_links", p.max_links, 1, 100000, "largest number of links of a robot");
   v.integer("max_mesh_bytes", p.max_mesh_bytes, 1000, 1 << 30, "largest size of a mesh file, in bytes");
   v.integer("max_mesh_triangles", p.max_mesh_triangles, 1, 100000000, "largest number of triangles of a mesh");

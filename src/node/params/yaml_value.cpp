@@ -35,6 +35,13 @@ XmlRpcValue plainValue(const std::string& text) {
   return XmlRpcValue(value);
 }
 
+/// Returns whether a text is a whole number in which a needless zero comes first. YAML 1.1 reads 010 as 8.
+bool hasLeadingZero(const std::string& text) {
+  const std::size_t first = text.find_first_not_of("+-");
+  return first <= 1 && text.size() > first + 1 && text[first] == '0' &&
+         text.find_first_not_of("0123456789", first) == std::string::npos;
+}
+
 /// Builds the value while yaml-cpp parses. The parser calls itself for each level, so the limit of the levels also
 /// bounds its stack.
 class Builder : public YAML::EventHandler {
@@ -60,6 +67,11 @@ class Builder : public YAML::EventHandler {
       levels_.back().has_key = true;
       if (levels_.back().value.hasMember(value)) refuse(mark, "'" + printable(value) + "' is there twice");
       return;
+    }
+    if (tag != "!" && hasLeadingZero(value)) {
+      refuse(mark, "'" + value +
+                       "' begins with a zero, which makes it an octal number for other readers of YAML; write it "
+                       "without the zero, or in quotes if it is a text");
     }
     add(tag == "!" ? XmlRpcValue(value) : plainValue(value));
   }
@@ -118,8 +130,8 @@ class Builder : public YAML::EventHandler {
 XmlRpcValue valueOfYaml(const std::string& text, const std::string& what) {
   Builder builder(what);
   try {
-    // yaml-cpp 0.6.3 (Debian 11) does not end, and allocates more and more memory, for some texts whose last line breaks
-    // off. With an end of the line, it refuses them.
+    // yaml-cpp 0.6.3 (Debian 11) does not end, and allocates more and more memory, for some texts whose last line
+    // breaks off. With an end of the line, it refuses them.
     std::istringstream in(text + "\n");
     YAML::Parser parser(in);
     if (!parser.HandleNextDocument(builder)) throw Refusal(Code::parse, what + " is empty");

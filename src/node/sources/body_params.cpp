@@ -46,7 +46,7 @@ void applyObstacleParams(const Params& params, double margin, double max_speed, 
     obstacle.shapes[i].padding = std::max(obstacle.shapes[i].padding, paddings[i]);
   }
   if (margin > 0.0) obstacle.margin = margin;
-  if (max_speed > 0.0) obstacle.max_speed = max_speed;
+  if (max_speed > 0.0) obstacle.max_speed = obstacle.speed_bound = max_speed;
 }
 
 void completeObstacle(const Params& params, double margin, double max_speed, NarrowPhase& narrow_phase,

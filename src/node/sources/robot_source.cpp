@@ -32,6 +32,11 @@ const Waiver* waiverOf(const std::vector<Waiver>& waivers, const std::string& na
   return found == waivers.rend() ? nullptr : &*found;
 }
 
+/// Returns whether the root of a robot is the world frame, so that only its joints move it.
+bool rests(const LoadedRobot& robot, const Params& params) {
+  return robot.root_frame == params.world_frame || params.world_frame.empty();
+}
+
 Body bodyOf(const LoadedRobot& robot, const RobotModel& model, std::uint32_t index, const Params& params) {
   const RobotLink& link = model.links[index];
   Body body;
@@ -50,12 +55,9 @@ Body bodyOf(const LoadedRobot& robot, const RobotModel& model, std::uint32_t ind
     body.note = waiver->reason + " (" + noteOf(link) + ")";
   }
   applyPatterns(params, body);
-  // If the root of the robot is not the world frame, the whole robot may move. That adds to the speed of its joints.
-  const double joints = speedBound(model, index);
-  const double carried =
-      robot.root_frame == params.world_frame || params.world_frame.empty() ? 0.0 : params.default_max_speed;
   body.max_speed =
-      lastMatch(params.max_speed, body.name, std::isfinite(joints) ? joints + carried : params.default_max_speed);
+      lastMatch(params.max_speed, body.name, expectedSpeed(robot, model, index, reachOf(body.shapes), params));
+  if (rests(robot, params)) body.speed_bound = lastMatch(params.max_speed, body.name, speedBound(model, index));
   return body;
 }
 
@@ -78,6 +80,13 @@ void findGap(LoadedRobot& robot, const Params& params) {
 }
 
 }  // namespace
+
+double expectedSpeed(const LoadedRobot& robot, const RobotModel& model, std::uint32_t link, double reach,
+                     const Params& params) {
+  const double joints = speedBound(model, link, reach);
+  return std::isfinite(joints) ? joints + (rests(robot, params) ? 0.0 : params.default_max_speed)
+                               : params.default_max_speed;
+}
 
 RobotSource::RobotSource(ros::NodeHandle node, const Params& params, std::shared_ptr<NarrowPhase> narrow_phase,
                          std::function<bool()> cancelled)

@@ -61,6 +61,12 @@ struct ReadDescription {
   std::shared_ptr<const RobotJoints> joints;
 };
 
+/// Returns the largest speed [m/s] that is expected of points that move with a link and are at most `reach` [m] from
+/// its origin: the bound of the joints above it, or ~default_max_speed if they have none. If the root frame of the
+/// robot is not the world frame, the whole robot may move, which adds ~default_max_speed.
+double expectedSpeed(const LoadedRobot& robot, const RobotModel& model, std::uint32_t link, double reach,
+                     const Params& params);
+
 /// Reads robots: their descriptions (URDF and SRDF) from the parameter server, and their meshes.
 class RobotSource {
  public:

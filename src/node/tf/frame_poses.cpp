@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/tf/frame_poses.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace hgrid {
@@ -17,9 +18,9 @@ void FramePoses::plan(const std::string& world_frame, std::vector<std::string> f
 }
 
 void FramePoses::look(const Moment& now) {
-  reading_before_ = reading_;
-  tick_time_before_ = tick_time_;
+  const Time last_reading = reading_, last_tick_time = tick_time_;
   reading_ = intake_.ages().read(now);
+  reading_before_ = first_ ? reading_ : last_reading;
   tree_.look(reading_);
   newest_.clear();
   for (const std::size_t i : others_) {
@@ -27,6 +28,8 @@ void FramePoses::look(const Moment& now) {
     if (state.connected && state.moves) newest_.push_back(state.newest);
   }
   tick_time_ = time_.choose(newest_, now.ros);
+  tick_time_before_ = first_ ? tick_time_ : std::min(last_tick_time, tick_time_);
+  first_ = false;
   tree_.listMoving(time_.keepsUpFrom(), awaited_);
   tree_.place(tick_time_);
 }

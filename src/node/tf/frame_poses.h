@@ -39,10 +39,12 @@ class FramePoses {
 
   /// Returns the frames that hold back the time of the next tick: those of chains that keep up.
   const std::vector<FrameStamp>& awaited() const { return awaited_; }
-  /// Returns the time of this tick; tickTimeBefore() returns the time of the previous tick. Both are in ROS time.
+  /// Returns the time of this tick; tickTimeBefore() returns the time of the previous tick. Both are in ROS time. In
+  /// the first tick, and in the first tick after ROS time went back, both are the same.
   Time tickTime() const { return tick_time_; }
   Time tickTimeBefore() const { return tick_time_before_; }
-  /// Returns the reading of the age clock in this tick; readingBefore() returns the reading in the previous tick.
+  /// Returns the reading of the age clock in this tick; readingBefore() returns the reading in the previous tick, in
+  /// the first tick that of this tick.
   Time reading() const { return reading_; }
   Time readingBefore() const { return reading_before_; }
   const ChainState& chain(std::size_t frame) const { return tree_.state(frame); }
@@ -71,6 +73,7 @@ class FramePoses {
   std::vector<std::size_t> others_;  // frames that are not the world frame
   std::vector<Time> newest_;         // buffer of look(): the newest time of each chain that moves
   std::vector<FrameStamp> awaited_;
+  bool first_ = true;  // whether there was no tick yet
   Time tick_time_{0}, tick_time_before_{0}, reading_{0}, reading_before_{0};
 };
 

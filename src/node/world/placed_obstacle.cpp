@@ -94,8 +94,7 @@ bool moveTogether(const PlacedObstacle& a, const PlacedObstacle& b) {
 void checkNoGlob(const std::string& name) {
   if (!isGlob(name)) return;
   throw Refusal(Code::bad_id, "'" + printable(name) +
-                                  "' contains * or ?; the names of attached obstacles and of "
-                                  "their links must not");
+                                  "' contains *; the names of attached obstacles and of their links must not");
 }
 
 }  // namespace
@@ -201,6 +200,7 @@ void append(PlacedObstacle& obstacle, const RequestedObstacle& added, const Surr
     what->body.shapes.push_back(std::move(shape));
   }
   obstacle.what = std::move(what);
+  if (obstacle.attachment) follow(obstacle, around.robots, around.params);  // it may reach farther out now
 }
 
 void checkPlanes(const PlacedObstacle& obstacle, const std::string& world_frame) {
@@ -271,6 +271,7 @@ void carry(PlacedObstacle& obstacle, const PlacedObstacle& before, const PlacedO
   }
   obstacle.touch = after.touch;
   obstacle.carrier_speed = after.carrier_speed;
+  if (obstacle.attachment) follow(obstacle, around.robots, around.params);
   checkPlace(obstacle, around);
 }
 
@@ -289,6 +290,12 @@ void follow(PlacedObstacle& obstacle, const RobotEntries& robots, const Params& 
     if (!isGlob(link)) obstacle.touch.push_back(joined(robot->name, link));
   }
   obstacle.carrier_speed = group.members.empty() ? params.default_max_speed : 0.0;
+  if (robot->read) {  // the obstacle may reach farther out than the link, and so be faster
+    const RobotModel& model = robot->read->model;
+    const int link = model.find(attachment.link.substr(robot->name.size() + 1));
+    const double reach = attachment.link_from_body->translation().norm() + reachOf(obstacle.what->body.shapes);
+    obstacle.carrier_speed = expectedSpeed(*robot, model, static_cast<std::uint32_t>(link), reach, params);
+  }
   for (const auto& member : group.members) {
     const Body& rigid = robot->bodies[member.first];  // it never moves relative to the obstacle
     obstacle.carrier_speed = std::max(obstacle.carrier_speed, rigid.max_speed);

@@ -61,7 +61,9 @@ TEST(Audit, ComparesAllPosesPairsAndQueriesOfASmallWorld) {
 
 /// Claim: an audit uses the parameters of the tick that it audits, also if they have changed since then.
 TEST(Audit, FollowsParametersThatChange) {
-  AuditedWorld world(14);
+  Params params = AuditedWorld::defaults();
+  params.pair_margins.clear();  // the settings of this test do not have them
+  AuditedWorld world(14, params);
   world.addRobot(0.0);
   begin(world);
   test::Random random(14);
@@ -252,7 +254,7 @@ TEST(Audit, FindsAPairThatTheFilterShouldHaveSwitchedOff) {
   const std::string found = foundWithinTen(world, [](AuditCase& audited) {
     PairRule rule;
     rule.first = "obstacle/part*";
-    rule.second = "obstacle/part?";
+    rule.second = "obstacle/part*";
     audited.rules.push_back(rule);
   });
   expectTells(found, "is listed, but it is switched off");

@@ -73,7 +73,7 @@ Params AuditedWorld::defaults() {
   params.pair_margins = {{"obstacle/part1", "obstacle/*", 0.25}};
   PairRule rule;
   rule.first = "obstacle/part2";
-  rule.second = "obstacle/post?";
+  rule.second = "obstacle/post*";
   params.allowed_pairs = {rule};
   return params;
 }

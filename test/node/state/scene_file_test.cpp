@@ -292,6 +292,9 @@ TEST(YamlValues, WhatIsWrongIsNamedWithItsLine) {
   EXPECT_TRUE(says(said(""), "night.yaml is empty"));
   EXPECT_TRUE(says(said("a: 1\n---\nb: 2\n"), "PARSE night.yaml has more than one document"));
   EXPECT_EQ(said("---\na: 1\n...\n"), "");
+  for (const std::string number : {"010", "-07", "00"})
+    EXPECT_TRUE(says(said("a: [1, " + number + "]\n"), "'" + number + "' begins with a zero")) << number;
+  EXPECT_EQ(said("{a: 0, b: 0.5, c: -0, d: '010', e: 0x, f: 1e05}\n"), "");
 }
 
 /// Claim: the path in the answer of ~save_scene is a full one, also if ~state_folder is not.
