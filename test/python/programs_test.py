@@ -67,6 +67,17 @@ class Programs(unittest.TestCase):
         self.assertIn("usage:", done.stdout)
         self.assertIn("-h", done.stdout)
 
+    def test_make_srdf_writes_pairs_with_their_reasons(self):
+        urdf = os.path.join(PACKAGE, "demo", "six_axis_arm.urdf")
+        done = run(find_node("hgrid_proximity", "make_srdf")[0], "--states", "200", urdf)
+        self.assertEqual(0, done.returncode, done.stderr)
+        self.assertIn('<robot name="six_axis_arm">', done.stdout)
+        for reason in ("Adjacent", "Never in 200 states"):
+            self.assertIn('" reason="%s"/>' % reason, done.stdout)
+        self.assertEqual(2, run(find_node("hgrid_proximity", "make_srdf")[0], "--states", "9", urdf).returncode)
+        self.assertEqual(1, run(find_node("hgrid_proximity", "make_srdf")[0], os.devnull).returncode)
+        self.expect_no_connection()
+
     def test_scripts_are_found(self):
         names = [os.path.basename(path) for path in scripts()]
         for name in ("ask.py", "carry_part", "doctor", "make_room", "move_cell", "person", "plan.py", "play_robot.py",
