@@ -10,6 +10,8 @@
 namespace hgrid {
 namespace {
 
+constexpr std::size_t kLongestMimicry = 8;  // joints that follow each other
+
 /// How a joint can move.
 struct Travel {
   double speed = kInfinity;  ///< [rad/s] or [m/s] upper bound of its speed
@@ -29,9 +31,10 @@ Travel travelOf(const RobotModel& model, const RobotLink& link) {
   const RobotLink* at = &link;
   double factor = 1.0, offset = 0.0;
   for (std::size_t steps = 0; !at->mimic.empty(); ++steps) {
+    if (steps == kLongestMimicry) return {};  // a circle, or a chain that no robot has
     const auto leader = std::find_if(model.links.begin(), model.links.end(),
                                      [&](const RobotLink& other) { return other.joint == at->mimic; });
-    if (leader == model.links.end() || steps == model.links.size()) return {};  // unknown joint, or a circle
+    if (leader == model.links.end()) return {};
     offset += factor * std::abs(at->mimic_offset);
     factor *= std::abs(at->mimic_multiplier);
     at = &*leader;

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <map>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,7 @@ constexpr char kUsage[] =
     "Reads a URDF from a file, or from standard input, and writes an SRDF with the pairs of links that may touch:\n\n"
     "- adjacent links,\n"
     "- pairs that touch in all of N random states of the joints within their limits,\n"
-    "- pairs that touch in none of them.\n\n"
+    "- pairs that touch in none of them, unless a planar or floating joint or an endless slide moves them apart.\n\n"
     "Each line has its reason. What touches in some states only stays switched on. Needs no ROS master and ignores "
     "ROS\n"
     "remappings. Meshes are found as in the node: package:// by ROS_PACKAGE_PATH.\n\n"
@@ -88,6 +89,10 @@ class Sampling {
       batch.world_from_root = Pose::Identity();
       for (std::size_t i = 0; i < std::min(kAtOnce, states - done); ++i) appendState(batch.positions);
       checker.checkStates(batch, request, scratch, answers);
+      for (std::size_t i = 0; i < answers.states.size(); ++i) {
+        if (answers.states[i].verdict == Verdict::unknown)
+          throw std::runtime_error("a state cannot be checked: " + checker.sentenceOf(batch, answers, i));
+      }
       for (const StatePair& pair : answers.pairs) ++counts[linksOf(pair)];
     }
     return counts;
@@ -96,11 +101,12 @@ class Sampling {
  private:
   void appendState(std::vector<double>& positions) {
     for (const JointVariable& variable : kinematics_.variables()) {
-      if (variable.quaternion >= 0) {  // a floating joint: any orientation serves, because nothing else is there
+      if (variable.quaternion >= 0) {  // of a floating joint; pairs that it moves stay on
         positions.push_back(variable.name.substr(variable.name.size() - 1) == "w" ? 1.0 : 0.0);
         continue;
       }
-      const bool limited = std::isfinite(variable.lower) && std::isfinite(variable.upper);
+      const bool limited = std::isfinite(variable.lower) && std::isfinite(variable.upper) &&
+                           !(variable.is_angle && variable.upper - variable.lower > 2.0 * M_PI);
       const double low = limited ? variable.lower : variable.is_angle ? -M_PI : -1.0;
       const double high = limited ? variable.upper : variable.is_angle ? M_PI : 1.0;
       // The generator gives the same numbers everywhere; the distributions of the standard library do not.
@@ -121,10 +127,26 @@ class Sampling {
   std::mt19937_64 random_{1};
 };
 
+/// Returns for each link the joints above it that can carry it any distance, by the index of their child links.
+std::vector<std::vector<std::uint32_t>> endlessJoints(const RobotModel& model) {
+  std::vector<std::vector<std::uint32_t>> above(model.links.size());
+  for (std::uint32_t i = 0; i < model.links.size(); ++i) {
+    const RobotLink& link = model.links[i];
+    if (link.parent < 0) continue;
+    above[i] = above[static_cast<std::size_t>(link.parent)];
+    const bool free = link.joint_kind == JointKind::planar || link.joint_kind == JointKind::floating;
+    const bool endless = link.joint_kind == JointKind::prismatic && link.lower == 0.0 && link.upper == 0.0;
+    if (free || endless) above[i].push_back(i);
+  }
+  return above;
+}
+
 /// Returns why a pair of links may touch, as MoveIt's assistant says it; empty: it may not.
-std::string reasonOf(Origin origin, std::size_t contacts, std::size_t states) {
+/// @param reached  whether random states reach all places where the two links can be relative to each other
+std::string reasonOf(Origin origin, std::size_t contacts, std::size_t states, bool reached) {
   if (origin == Origin::adjacent) return "Adjacent";
   if (origin != Origin::none) return "";  // links of one rigid group: they need no rule
+  if (!reached) return "";
   if (contacts == 0) return "Never in " + std::to_string(states) + " states";
   return contacts == states ? "Always in " + std::to_string(states) + " states" : "";
 }
@@ -134,22 +156,26 @@ void write(RobotModel& model, std::size_t states) {
   Sampling sampling(model);
   const std::map<Pair, std::size_t> contacts = sampling.contacts(states);
   std::printf("<?xml version=\"1.0\"?>\n<robot name=\"%s\">\n", xmlEscaped(model.name).c_str());
-  std::size_t pairs = 0, off = 0;
+  const std::vector<std::vector<std::uint32_t>> endless = endlessJoints(model);
+  std::size_t on = 0, off = 0;
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
     for (std::uint32_t j = i + 1; j < model.links.size(); ++j) {
       if (model.links[i].shapes.empty() || model.links[j].shapes.empty()) continue;
-      ++pairs;
       const auto found = contacts.find({i, j});
+      const Origin origin = sampling.matrix().origin(i, j);
       const std::string reason =
-          reasonOf(sampling.matrix().origin(i, j), found == contacts.end() ? 0 : found->second, states);
-      if (reason.empty()) continue;
+          reasonOf(origin, found == contacts.end() ? 0 : found->second, states, endless[i] == endless[j]);
+      if (reason.empty()) {
+        on += origin == Origin::none;
+        continue;
+      }
       ++off;
       std::printf("  <disable_collisions link1=\"%s\" link2=\"%s\" reason=\"%s\"/>\n",
                   xmlEscaped(model.links[i].name).c_str(), xmlEscaped(model.links[j].name).c_str(), reason.c_str());
     }
   }
   std::printf("</robot>\n");
-  std::fprintf(stderr, "%zu of %zu pairs of links may touch; the others are checked\n", off, pairs);
+  std::fprintf(stderr, "%zu pairs of links may touch, %zu others stay on\n", off, on);
 }
 
 int run(const std::string& file, std::size_t states) {

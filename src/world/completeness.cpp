@@ -25,10 +25,10 @@ SourceGap gapOfAbsent(const std::string& pattern) {
           "REQUIRED '" + printable(pattern) + "': no body matches this pattern; add such a body, or do not require it"};
 }
 
-/// Returns whether a link is stale and its robot has a link in another rigid group with which it is a pair. The margins
-/// of such pairs do not grow, see movedTogether().
+/// Returns whether a link may have moved since its pose, and its robot has a link in another rigid group with which it
+/// is a pair. The margins of such pairs do not grow, see movedTogether().
 bool mayHaveBent(const Structure& structure, std::uint32_t body, const BodyPose& pose) {
-  if (pose.state < Freshness::stale || pose.reach == 0.0 || pose.cohort == 0) return false;
+  if (pose.reach == 0.0 || pose.cohort == 0) return false;
   const Body& link = structure.bodies[body];
   if (link.robot.empty()) return false;
   const auto isPartner = [&](std::uint32_t other) {
@@ -69,7 +69,8 @@ std::string gapSentence(const Structure& structure, std::uint32_t body, const Bo
   if (!gap.empty() || !leavesGap(structure, body, pose)) return gap;
   gap = std::string(name(pose.state)) + " " + what.name + ": its pose is " + secondsText(pose.age) + " old (frame '" +
         printable(what.frame) + "'), so ";
-  if (!isOutgrown(pose)) return gap + "the joints may have moved, for which pairs of the robot's own links do not grow";
+  if (!isOutgrown(pose))
+    return gap + "the joints may have moved, and the margins of the robot's own pairs do not grow for that";
   const bool known = std::isfinite(pose.reach);
   return gap + "it may have moved " + (known ? metersText(pose.reach) : "any distance") +
          ", but margins grow by at most " + metersText(pose.growth) + " (growth_cap)";

@@ -72,7 +72,7 @@ void Horizon::sweep(const Structure& structure, std::uint32_t body, const BodyPo
   const Body& what = structure.bodies[body];
   const double time = std::max(0.0, seconds(pose.stamp - last_.stamps[known]));
   const double may = what.max_speed * time;
-  if (what.mobility != Mobility::fixed && time > 0.0) way_[body] = std::isfinite(may) ? may : cap_;
+  if (what.mobility != Mobility::fixed && time > 0.0) way_[body] = std::min(may, cap_);
   const ProxyId first = structure.first_proxy[body], last_first = last_.structure->first_proxy[known];
   for (ProxyId proxy = first; proxy < structure.first_proxy[body + 1]; ++proxy) {
     const Aabb &from = last_.boxes[last_first + (proxy - first)], &to = now_.boxes[proxy];

@@ -36,8 +36,8 @@ class Horizon {
   double reachOf(std::uint32_t body) const { return on() ? reach_[body] : 0.0; }
   /// Returns how far [m] a body can have moved from the stamp of its pose to the time of the tick.
   double driftOf(std::uint32_t body) const { return on() ? drift_[body] : 0.0; }
-  /// Returns an upper bound [m] of the length of the way that any point of a body went since the last accepted tick. 0
-  /// if the body had no pose in that tick.
+  /// Returns an upper bound [m] of the length of the way that any point of a body went since the last accepted tick, at
+  /// most the cap. 0 if the body had no pose in that tick.
   double wayOf(std::uint32_t body) const { return on() ? way_[body] : 0.0; }
   /// Returns a box that contains a proxy at each time since the last accepted tick, if the body kept its max_speed. A
   /// body that turns may leave the box around its boxes of both ticks.

@@ -24,7 +24,7 @@ inline double configuredMargin(const Structure& structure, std::uint32_t first, 
 
 /// Returns whether two bodies are links of one robot with poses of the same age. The poses of such links fit together,
 /// even if they are old. So their margins do not grow, which would report all links of a robot that is silent for a
-/// moment. But its joints may have moved since; gapLeftBy() makes the robot incomplete then.
+/// moment. But its joints may have moved since; the robot is incomplete then (completeness.cpp).
 inline bool movedTogether(const Structure& structure, std::uint32_t first, std::uint32_t cohort_of_first,
                           std::uint32_t second, std::uint32_t cohort_of_second) {
   if (cohort_of_first == 0 || cohort_of_first != cohort_of_second) return false;

@@ -92,10 +92,8 @@ double Snapshot::growthOf(std::uint32_t first, std::uint32_t second) const {
 
 double Snapshot::reachBetween(std::uint32_t first, std::uint32_t second) const {
   const BodyPose &a = poses_[first], &b = poses_[second];
-  if (movedTogether(*structure_, first, a.cohort, second, b.cohort)) {
-    const bool rigid = structure_->bodies[first].rigid_group == structure_->bodies[second].rigid_group;
-    if (rigid || std::max(a.state, b.state) < Freshness::stale) return 0.0;
-  }
+  const bool rigid = structure_->bodies[first].rigid_group == structure_->bodies[second].rigid_group;
+  if (rigid && movedTogether(*structure_, first, a.cohort, second, b.cohort)) return 0.0;
   return a.reach + b.reach;
 }
 

@@ -98,8 +98,8 @@ TEST(PointCloud, PointsThatSayNothingOrTooNearAreCountedApart) {
                                     {0, -9e-4f, 0},
                                     {0, 0, 1.1e-3f},
                                     {-inf, -inf, -inf},
-                                    {0, -inf, inf},
-                                    {-inf, nan, 0},
+                                    {nan, -inf, -inf},
+                                    {-inf, inf, inf},
                                     {inf, inf, inf},
                                     {nan, nan, nan}},
                                    0.001, 9 * 16);

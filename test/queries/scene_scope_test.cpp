@@ -132,7 +132,8 @@ TEST(Scope, StaleLinksOfOneRobotMayHaveMovedAgainstEachOther) {
     const auto snapshot = scene.commit(Time{1}, {});
     return nearest(*snapshot, snapshot->structure().find("robot/1"), 0.5, scopeOf({other})).verdict;
   };
-  EXPECT_EQ(verdict(Freshness::late, 5.0, "robot/2"), Verdict::clear);
+  EXPECT_EQ(verdict(Freshness::late, 0.2, "robot/2"), Verdict::clear) << "the poses are not that old";
+  EXPECT_EQ(verdict(Freshness::fresh, 5.0, "robot/2"), Verdict::unknown) << "a slow frame is FRESH for longer";
   EXPECT_EQ(verdict(Freshness::stale, 1.0, "robot/2"), Verdict::clear) << "each of them may have moved 0.5 m";
   EXPECT_EQ(verdict(Freshness::stale, 2.0, "robot/2"), Verdict::unknown);
   EXPECT_EQ(verdict(Freshness::lost, 3600.0, "robot/2"), Verdict::unknown);

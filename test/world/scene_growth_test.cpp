@@ -180,9 +180,11 @@ TEST_F(RobotGrowth, LinksOfOneRobotThatAreEquallyOldDoNotGrowAgainstEachOther) {
 }
 
 TEST_F(RobotGrowth, ButTheRobotIsIncompleteBecauseItsJointsMayHaveMoved) {
-  scene_.setState(first_, Freshness::late, 1.0, 7);
-  scene_.setState(second_, Freshness::late, 1.0, 7);
-  EXPECT_TRUE(now().incompleteSources().empty()) << "no pose is stale yet";
+  scene_.setState(first_, Freshness::late, 0.2, 7);
+  scene_.setState(second_, Freshness::late, 0.2, 7);
+  EXPECT_TRUE(now().incompleteSources().empty()) << "no pose is that old yet";
+  scene_.setState(first_, Freshness::fresh, 1.0, 7);
+  EXPECT_EQ(now().incompleteSources(), std::vector<std::string>{"left"}) << "a slow frame is FRESH for longer";
   allStale(7, 7, 9);
   ASSERT_EQ(now().incompleteSources(), std::vector<std::string>{"left"})
       << "the other robot has one link only, so nothing can bend";

@@ -33,8 +33,8 @@ struct PointCloudFormat {
 /// The points of a cloud, in the frame of its sensor [m].
 struct PointCloud {
   std::vector<Eigen::Vector3d> points;  ///< [m, sensor frame] what the sensor saw, in the order of the data
-  std::uint64_t not_finite = 0;         ///< number of points with NaN or +inf, where the sensor saw nothing
-  std::uint64_t too_near = 0;           ///< number of points with -inf: something is nearer than the sensor can see
+  std::uint64_t not_finite = 0;         ///< number of other points without a position, where the sensor saw nothing
+  std::uint64_t too_near = 0;           ///< number of points with -inf and no +inf: something is too near to be seen
   std::uint64_t no_return = 0;          ///< number of points nearer to the origin than `min_range`
   bool without_row_step = false;        ///< whether the only row has a row_step of 0, and its points fit
 };

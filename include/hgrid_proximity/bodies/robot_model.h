@@ -65,7 +65,7 @@ double reachOf(const std::vector<BodyShape>& shapes);
 /// revolute joint adds its velocity limit times the largest possible distance of the points from the joint. A joint
 /// that mimics another one moves as far and as fast as that one allows, whatever its own limits say: publishers of
 /// joint states and of tf do not obey them. The bound is infinite if one of these joints has no velocity limit, is
-/// planar or floating, or mimics a joint that the model does not have.
+/// planar or floating, or mimics a joint that the model does not have, or over more than eight others.
 double speedBound(const RobotModel& model, std::uint32_t link, double reach);
 /// As above, for the shapes of the link.
 double speedBound(const RobotModel& model, std::uint32_t link);

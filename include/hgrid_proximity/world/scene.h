@@ -39,7 +39,7 @@ struct SceneOptions {
   /// [s] Two bodies that can meet within this time, given their max_speed, are a pair too. So are two bodies that
   /// passed each other since the last commit. Range 0 .. 60; 0 switches both off.
   double horizon = 0.0;
-  /// Margins of single pairs, 0 .. 1e3 [m]. A value below `margin` is replaced by `margin`.
+  /// Margins of single pairs, 0 .. 1e3 [m], in place of `margin` and of the margins of their bodies.
   std::vector<PairMargin> pair_margins;
   /// If true, a query without a hit answers CLEAR only if a map in its scope knows the space to be free. If no map
   /// does, the query answers UNKNOWN.

@@ -53,10 +53,16 @@ FieldPlace placeOf(const char* name, const PointCloudFormat& format, const std::
   return {found->offset, wide};
 }
 
-/// Counts a point without a finite position. As REP-117 has it, -inf is an object that is too near.
+/// Counts a point without a finite position. As REP-117 has it, a range of -inf is an object that is too near. A driver
+/// may write it into all coordinates, or multiply it with the direction of the beam, which also makes NaN. A range of
+/// +inf in a direction with negative coordinates alone looks alike, and then counts as too near.
 void countNotFinite(const Eigen::Vector3d& point, PointCloud& cloud) {
-  const bool too_near = !point.hasNaN() && point.minCoeff() < 0.0 && std::isinf(point.minCoeff());
-  ++(too_near ? cloud.too_near : cloud.not_finite);
+  bool below = false, above = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    below = below || (std::isinf(point[axis]) && point[axis] < 0.0);
+    above = above || (std::isinf(point[axis]) && point[axis] > 0.0);
+  }
+  ++(below && !above ? cloud.too_near : cloud.not_finite);
 }
 
 void checkSizes(const PointCloudFormat& format, std::string_view data, const std::string& what) {

@@ -261,11 +261,12 @@ RobotLink linkOf(const urdf::Link& source, int parent, const ShapeLimits& limits
     link.upper = joint.limits->upper;
   }
   const bool is_limited = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::PRISMATIC;
-  if (is_limited && joint.mimic == nullptr && !(link.lower < link.upper)) {
+  const bool unlimited = (link.lower == 0.0 && link.upper == 0.0) || link.lower > link.upper;
+  if (is_limited && joint.mimic == nullptr && unlimited) {
     warnings.push_back(what + " may go from " + text(link.lower) + " to " + text(link.upper) +
-                       " by its <limit>, so other tools do not let it move at all; here it moves without limits, but "
-                       "it does not take the shorter way around like a continuous joint");
-    if (link.lower > link.upper) link.lower = link.upper = 0.0;
+                       " by its <limit>, so other tools do not let it move at all; here it moves without limits" +
+                       (joint.type == urdf::Joint::REVOLUTE ? ", but turns are counted: a full turn is a way" : ""));
+    link.lower = link.upper = 0.0;
   }
   return link;
 }

@@ -53,12 +53,24 @@ void refuseXacro(const tinyxml2::XMLElement& parent) {
   }
 }
 
-/// Beside links, an element of xacro is left over, and ignored with a warning. Anywhere else, it is refused.
+/// Returns whether an element holds a link or a joint, at any depth.
+bool holdsParts(const tinyxml2::XMLElement& element) {
+  for (auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    const bool is_part = std::strcmp(child->Name(), "link") == 0 || std::strcmp(child->Name(), "joint") == 0;
+    if (is_part || holdsParts(*child)) return true;
+  }
+  return false;
+}
+
+/// Beside links, an element of xacro that holds none is left over, and ignored with a warning. Anywhere else, it is
+/// refused.
 void checkXacro(const tinyxml2::XMLElement& robot, std::vector<std::string>& warnings) {
   if (robot.FirstChildElement("link") == nullptr) return refuseXacro(robot);
   for (auto* child = robot.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
-    if (isXacro(*child)) {
+    if (isXacro(*child) && !holdsParts(*child)) {
       warnings.push_back(xacroText(*child) + " beside its links; it is ignored, as by other readers of URDF");
+    } else if (isXacro(*child)) {
+      refuseXacro(robot);
     } else {
       refuseXacro(*child);
     }

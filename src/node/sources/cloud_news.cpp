@@ -45,12 +45,12 @@ SourceGap CloudNews::gap(const std::string& body, Freshness state, double age, d
   return gap;
 }
 
-SourceGap CloudNews::gapBefore(const std::string& body) const {
+SourceGap CloudNews::gapBefore(const std::string& body, double age, double max_speed) const {
   return {body, body,
           "TOO_NEAR " + body + ": " + std::to_string(newest_.too_near) +
               " points of its newest message are -inf, so something nearer than the sensor can see may be within " +
               text(newest_.blind.radius) + " m (blind_range) of it",
-          newest_.blind};
+          Sphere{newest_.blind.center, newest_.blind.radius + max_speed * age}};
 }
 
 }  // namespace hgrid

@@ -40,7 +40,8 @@ class CloudNews {
   /// @param max_speed  [m/s] maximum speed of the sensor
   SourceGap gap(const std::string& body, Freshness state, double age, double max_speed) const;
   /// Returns the SourceGap before the lens of a sensor whose newest message has points that are too near to be seen.
-  SourceGap gapBefore(const std::string& body) const;
+  /// @param max_speed  [m/s] maximum speed of the sensor
+  SourceGap gapBefore(const std::string& body, double age, double max_speed) const;
 
  private:
   std::string sinceThen() const { return refused_.empty() ? "" : "; a later message was refused: " + refused_; }

@@ -125,7 +125,7 @@ void CloudSource::take(const CloudMessage& message) {
   cells_.forget(cellTime());
   const bool seen = cloud_.empty == EmptyCloud::clear || points >= static_cast<std::size_t>(cloud_.min_points);
   if (seen) noteNewest(stamp, now, received, world_from_sensor.translation());
-  noteTooNear(stamp, too_near, world_from_sensor.translation());
+  noteTooNear(stamp, now, too_near, world_from_sensor.translation());
   if (seen || loaded_.cells) put();
   if (!seen) {
     throw Refusal(Code::out_of_range,
@@ -151,12 +151,12 @@ void CloudSource::noteNewest(Time stamp, Time now, std::chrono::steady_clock::ti
   loaded_.sensor = sensor;
 }
 
-/// Stores whether something is nearer than the sensor can see. An older message than the one that said so does not
-/// count.
-void CloudSource::noteTooNear(Time stamp, std::uint64_t too_near, const Eigen::Vector3d& sensor) {
-  if (stamp < loaded_.blind_stamp && stamp < loaded_.stamp) return;
-  const bool is_blind = too_near >= static_cast<std::uint64_t>(cloud_.min_points);
-  loaded_.too_near = is_blind ? too_near : 0;
+/// Stores whether something is nearer than the sensor can see. A message that is older than another one does not change
+/// that, unless the clock was set back.
+void CloudSource::noteTooNear(Time stamp, Time now, std::uint64_t too_near, const Eigen::Vector3d& sensor) {
+  const bool clock_went_back = seconds(loaded_.blind_stamp - now) > params_.max_future;
+  if (stamp < loaded_.blind_stamp && !clock_went_back) return;
+  loaded_.too_near = too_near;
   loaded_.blind_stamp = stamp;
   loaded_.blind = {sensor, cloud_.blind_range};
 }

@@ -50,7 +50,7 @@ class CloudSource {
   Pose sensorPose(const std::string& frame, const std::string& world_frame, Time stamp) const;
   std::vector<Voxel> voxelsOf(PointCloud cloud, const Pose& world_from_sensor, Time stamp);
   void noteNewest(Time stamp, Time now, std::chrono::steady_clock::time_point received, const Eigen::Vector3d& sensor);
-  void noteTooNear(Time stamp, std::uint64_t too_near, const Eigen::Vector3d& sensor);
+  void noteTooNear(Time stamp, Time now, std::uint64_t too_near, const Eigen::Vector3d& sensor);
   void put();
   Time cellTime() const;
 

@@ -58,7 +58,9 @@ void CloudBodies::update(Time time, const Moment& now, bool clock_frozen, Tick& 
       if (trouble.state >= Freshness::lost) {
         gaps.push_back(cloud.news.gap(source.name, trouble.state, trouble.age, scene_.body(cloud.body).max_speed));
       }
-      if (newest.too_near > 0) gaps.push_back(cloud.news.gapBefore(source.name));
+      if (newest.too_near > 0) {
+        gaps.push_back(cloud.news.gapBefore(source.name, trouble.age, scene_.body(cloud.body).max_speed));
+      }
       if (trouble.state == Freshness::lost && !refused.empty()) tick.not_ready.push_back(refused);
     } catch (const Refusal& refusal) {
       ledger_.refuse("pose.refused", refusal);
