@@ -13,8 +13,8 @@ struct RobotModel;
 /// A tree of the rigid groups of a robot model. Its edges are the moving joints. It decides which groups are adjacent:
 /// those that one joint connects, or several joints that count as one.
 ///
-/// LinkMatrix decides which of their links are adjacent. If several joints connect two adjacent groups, these joints are a
-/// universal or spherical joint that the URDF describes as several joints. Groups on different branches are never
+/// LinkMatrix decides which of their links are adjacent. If several joints connect two adjacent groups, these joints
+/// are a universal or spherical joint that the URDF describes as several joints. Groups on different branches are never
 /// adjacent.
 class GroupTree {
  public:

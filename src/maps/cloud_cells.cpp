@@ -11,7 +11,8 @@
 
 namespace hgrid {
 
-CloudCells::CloudCells(double edge, Time lifetime, std::size_t most) : edge_(edge), per_edge_(1.0 / edge), lifetime_(lifetime), most_(most) {}
+CloudCells::CloudCells(double edge, Time lifetime, std::size_t most)
+    : edge_(edge), per_edge_(1.0 / edge), lifetime_(lifetime), most_(most) {}
 
 CloudCells::Keys CloudCells::keysOf(const Eigen::Vector3d& point) const {
   Keys keys;

@@ -11,10 +11,10 @@ namespace hgrid {
 
 /// Selects the overlapping pairs that a broad phase reports.
 ///
-/// The broad phase may call the filter on any thread, also in the middle of a search. So the filter must not search itself.
-/// The broad phase may remember the answer for a pair while neither box moves, so
-/// the filter must always give the same answer for the same pair. Do not confuse it with PairFilter, which decides
-/// which pairs of bodies are reported.
+/// The broad phase may call the filter on any thread, also in the middle of a search. So the filter must not search
+/// itself. The broad phase may remember the answer for a pair while neither box moves, so the filter must always give
+/// the same answer for the same pair. Do not confuse it with PairFilter, which decides which pairs of bodies are
+/// reported.
 struct OverlapFilter {
   /// Selects among `count` pairs: moves the pairs that it keeps to the front, in their original order, and returns
   /// their number. Null: all pairs are kept.

@@ -90,8 +90,9 @@ class Snapshot {
   /// Returns by how much [m] the distance of two bodies may be smaller than at their poses, because they may have moved
   /// since. 0 for links of one rigid group whose poses have the same age.
   double reachBetween(std::uint32_t first, std::uint32_t second) const;
-  /// Whether every source is complete: each of its bodies is known, placed and covered; none is lost, frozen or invalid;
-  /// none may be farther from its pose than margins grow; and no joint of a robot may have moved since old poses.
+  /// Whether every source is complete: each of its bodies is known, placed and covered; none is lost, frozen or
+  /// invalid; none may be farther from its pose than margins grow; and no joint of a robot may have moved since old
+  /// poses.
   bool complete() const { return reasons_total_ == 0; }
   /// Names of the sources that are not complete, sorted.
   const std::vector<std::string>& incompleteSources() const { return incomplete_; }

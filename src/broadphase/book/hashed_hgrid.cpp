@@ -13,9 +13,9 @@ namespace {
 
 thread_local Stamps time_stamps;  // the buckets that the present search of a level has visited
 
-/// Returns a larger shape. On each axis, its bounds and its slices contain the center of each box that touches the shape
-/// and whose sides are at most twice the reach. Only bounds and slices do: a corner is farther from the center than the
-/// reach.
+/// Returns a larger shape. On each axis, its bounds and its slices contain the center of each box that touches the
+/// shape and whose sides are at most twice the reach. Only bounds and slices do: a corner is farther from the center
+/// than the reach.
 /// @param reach  [m]
 QueryShape grown(const QueryShape& shape, double reach) {
   if (shape.kind() == QueryShape::Kind::segment) {

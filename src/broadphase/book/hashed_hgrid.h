@@ -44,8 +44,8 @@ namespace book {
 /// - The finest cells follow from the smallest box, and the number of buckets from the number of boxes. A box that is
 ///   too long for the coarsest level is in a list.
 /// - Lists are linked in both directions, so removal takes constant time, which the book recommends.
-/// - A search looks as far beyond the query as half of the longest side that a box of the level can have; the listing looks
-///   twice as far. In place of the constant EPSILON, bounds are rounded outward: a small constant added to a large
+/// - A search looks as far beyond the query as half of the longest side that a box of the level can have; the listing
+///   looks twice as far. In place of the constant EPSILON, bounds are rounded outward: a small constant added to a large
 ///   coordinate may not change it.
 /// - **Large queries.** The listing visits each cell that the query covers. On a level of small cells, these can be far
 ///   more than there are boxes. Here each level has a list of its boxes. A search goes through this list if it would

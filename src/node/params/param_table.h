@@ -131,13 +131,13 @@ void visitParams(Visitor& v, Params& p) {
          "frame. max_age: the map of a topic is not complete while its newest message is older than this; 0: off");
   v.clouds("clouds", p.clouds,
            "list of {name, topic, resolution: [m], lifetime: [s], empty, min_points, range: [m], min_range: [m], "
-           "blind_range: [m]}: point clouds. Each is the body cloud/name. topic: a topic of sensor_msgs/PointCloud2, default cloud. resolution: edge of the "
-           "cells that the points fill in the world frame, default 0.05. lifetime: how long a cell stays after the "
+           "blind_range: [m]}: point clouds. Each is the body cloud/name. topic: a topic of sensor_msgs/PointCloud2, "
+           "default cloud. resolution: edge of the cells that the points fill in the world frame, default 0.05. lifetime: how long a cell stays after the "
            "sensor last saw a point in it, default 1. The cloud is not complete if no newer message arrives within its "
            "lifetime. min_points: a message with fewer points counts as empty, default 1. empty: what an empty "
            "message means: unknown (it does not count as newer, default) or clear (nothing is there). range: the "
-           "sensor sees no farther than this, default 0: no bound. min_range: points nearer to the origin of their frame are "
-           "beams without return, and no points, default 0.001. blind_range: how far from the sensor something may be "
+           "sensor sees no farther than this, default 0: no bound. min_range: points nearer to the origin of their "
+           "frame are beams without return, and no points, default 0.001. blind_range: how far from the sensor something may be "
            "if points are -inf, which means too near to be seen, default 0.5");
   v.string("map/folder", p.map_folder,
            "folder from which maps and ~load_octomap may read files; empty: no file is read");
@@ -334,7 +334,8 @@ void visitParams(Visitor& v, Params& p) {
             "number of threads that answer queries; a query waits only while all of them are busy");
   v.integer("batch_threads", p.batch_threads, 1, 64,
             "number of threads that answer requests with many questions (~query_batch, ~distance_field, ~check_states, "
-            "~check_edges, ~guard). Such a request may take seconds. Other queries have threads of their own (~query_threads)");
+            "~check_edges, ~guard). Such a request may take seconds. Other queries have threads of their own "
+            "(~query_threads)");
   v.number(
       "lease_max", p.lease_max, "s", 0.0, 3600.0,
       "longest time for which a request can make the node keep a tick (a lease), so that later requests are answered "
@@ -348,7 +349,8 @@ void visitParams(Visitor& v, Params& p) {
   v.number("guard/ahead", p.guard_ahead, "s", 0.1, 600.0,
            "how far ahead the paths of robots are checked (~guard, ~conflicts)");
   v.number("guard/deviation", p.guard_deviation, "rad or m", 0.0, 1000.0,
-           "how far a joint may be from the path that its robot follows; if it is farther, all paths without a conflict are UNKNOWN");
+           "how far a joint may be from the path that its robot follows; if it is farther, all paths without a "
+           "conflict are UNKNOWN");
   v.number("guard/budget", p.guard_budget, "s", 0.001, 10.0,
            "longest time of one check of all paths; what was not checked in this time is UNKNOWN");
   v.number("audit_rate", p.audit_rate, "Hz", 0.0, 10.0,

@@ -164,7 +164,8 @@ class Reader {
   }
   void clouds(const char* name, std::vector<CloudParams>& value, const char*) {
     std::set<std::string> names;
-    forEach(name, "field of a cloud (name, topic, resolution, lifetime, empty, min_points, range, min_range, blind_range)",
+    forEach(name,
+            "field of a cloud (name, topic, resolution, lifetime, empty, min_points, range, min_range, blind_range)",
             [&](ParamValue& element) {
               CloudParams cloud;
               readString(element, "topic", cloud.topic, false);

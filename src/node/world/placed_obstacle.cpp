@@ -93,8 +93,8 @@ bool moveTogether(const PlacedObstacle& a, const PlacedObstacle& b) {
 
 void checkNoGlob(const std::string& name) {
   if (!isGlob(name)) return;
-  throw Refusal(Code::bad_id, "'" + printable(name) +
-                                  "' contains *; the names of attached obstacles and of their links must not");
+  throw Refusal(Code::bad_id,
+                "'" + printable(name) + "' contains *; the names of attached obstacles and of their links must not");
 }
 
 }  // namespace

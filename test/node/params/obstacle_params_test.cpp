@@ -219,8 +219,8 @@ TEST(ObstacleParams, WhatIsWrongIsNamed) {
   // As a rule for what may touch it, this name would be a glob over other obstacles.
   const Value attached = dict({{"link", "arm/hand"}});
   const Value held = dict({{"name", "o*"}, {"shapes", list({dict({{"type", "sphere"}, {"radius", 1.0}})})}});
-  EXPECT_TRUE(says(refusalOf(with(held, {{"attached", attached}})),
-                   "~obstacles[0] is attached, but its name 'o*' contains *"));
+  EXPECT_TRUE(
+      says(refusalOf(with(held, {{"attached", attached}})), "~obstacles[0] is attached, but its name 'o*' contains *"));
 }
 
 }  // namespace
