@@ -38,7 +38,8 @@ std::string describedBy(ByteSource bytes) {
 
 /// Compares the cloud that the product read with the reference. @returns how they differ; empty if they are equal
 std::string differenceOf(const PointCloud& cloud, const PointCloud& reference) {
-  if (cloud.not_finite + cloud.too_near != reference.not_finite) return "the number of points that are not finite is wrong";
+  if (cloud.not_finite != reference.not_finite) return "the number of points that are not finite is wrong";
+  if (cloud.too_near != reference.too_near) return "the number of points that are too near is wrong";
   return cloud.points == reference.points ? "" : "the points are wrong";
 }
 

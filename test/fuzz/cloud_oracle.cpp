@@ -86,8 +86,9 @@ std::optional<PointCloud> decodedOrThrow(const std::string& message) {
         point[axis] = decoded(data, at, fields.find(std::string(1, "xyz"[axis]))->second);
       }
       const bool finite = std::isfinite(point.x()) && std::isfinite(point.y()) && std::isfinite(point.z());
+      const bool too_near = (point.array() == -INFINITY).any() && !(point.array() == INFINITY).any();
       if (finite) cloud.points.push_back(point);
-      if (!finite) ++cloud.not_finite;
+      if (!finite) ++(too_near ? cloud.too_near : cloud.not_finite);
     }
   }
   return cloud;

@@ -132,13 +132,14 @@ void visitParams(Visitor& v, Params& p) {
   v.clouds("clouds", p.clouds,
            "list of {name, topic, resolution: [m], lifetime: [s], empty, min_points, range: [m], min_range: [m], "
            "blind_range: [m]}: point clouds. Each is the body cloud/name. topic: a topic of sensor_msgs/PointCloud2, "
-           "default cloud. resolution: edge of the cells that the points fill in the world frame, default 0.05. lifetime: how long a cell stays after the "
-           "sensor last saw a point in it, default 1. The cloud is not complete if no newer message arrives within its "
-           "lifetime. min_points: a message with fewer points counts as empty, default 1. empty: what an empty "
-           "message means: unknown (it does not count as newer, default) or clear (nothing is there). range: the "
-           "sensor sees no farther than this, default 0: no bound. min_range: points nearer to the origin of their "
-           "frame are beams without return, and no points, default 0.001. blind_range: how far from the sensor something may be "
-           "if points are -inf, which means too near to be seen, default 0.5");
+           "default cloud. resolution: edge of the cells that the points fill in the world frame, default 0.05. "
+           "lifetime: how long a cell stays after the sensor last saw a point in it, default 1. The cloud is not "
+           "complete if no newer message arrives within its lifetime. min_points: a message with fewer points counts "
+           "as empty, default 1. empty: what an empty message means: unknown (it does not count as newer, default) or "
+           "clear (nothing is there). range: the sensor sees no farther than this, default 0: no bound. min_range: "
+           "points nearer to the origin of their frame are beams without return, and no points, default 0.001. "
+           "blind_range: how far from the sensor something may be if points are -inf, which means too near to be "
+           "seen, default 0.5");
   v.string("map/folder", p.map_folder,
            "folder from which maps and ~load_octomap may read files; empty: no file is read");
   v.number("map/occupied_from", p.map_occupied_from, "", 0.001, 0.999,
