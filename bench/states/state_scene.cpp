@@ -76,17 +76,8 @@ void StateScene::addRobot(Scene& scene) {
   for (std::uint32_t i = 0; i < robot.model.links.size(); ++i) {
     RobotLink& link = robot.model.links[i];
     if (link.shapes.empty()) continue;
-    Body body;
-    body.name = "robot/" + link.name;
-    body.frame = link.name;
-    body.kind = BodyKind::link;
-    body.robot = "robot";
-    body.link = i;
-    body.rigid_group = link.rigid_group;
-    body.links = matrix;
     for (BodyShape& shape : link.shapes) shape.solid = narrow_phase->solidOf(shape.shape);
-    body.shapes = link.shapes;
-    scene.place(scene.add(body), Pose::Identity(), Time{1});
+    scene.place(scene.add(linkBody(robot.model, i, "robot", matrix)), Pose::Identity(), Time{1});
   }
 }
 

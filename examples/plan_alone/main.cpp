@@ -65,17 +65,8 @@ void addRobot(hgrid::Scene& scene, hgrid::NarrowPhase& narrow, const hgrid::Robo
   std::vector<std::string> warnings;
   const auto matrix = std::make_shared<const hgrid::LinkMatrix>(model, rules, warnings);
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
-    const hgrid::RobotLink& link = model.links[i];
-    if (!link.hasGeometry()) continue;
-    hgrid::Body body;
-    body.name = "robot/" + link.name;
-    body.kind = hgrid::BodyKind::link;
-    body.robot = "robot";
-    body.link = i;
-    body.rigid_group = link.rigid_group;
-    body.links = matrix;
-    body.shapes = link.shapes;
-    body.covered = link.unreadable.empty();  // if a shape could not be read, no state is CLEAR
+    if (!model.links[i].hasGeometry()) continue;
+    hgrid::Body body = hgrid::linkBody(model, i, "robot", matrix);  // if a shape could not be read, no state is CLEAR
     for (hgrid::BodyShape& shape : body.shapes) shape.solid = narrow.solidOf(shape.shape);
     scene.place(scene.add(std::move(body)), hgrid::Pose::Identity(), hgrid::Time{1});
   }

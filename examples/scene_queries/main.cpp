@@ -40,16 +40,8 @@ void putRobot(hgrid::Scene& scene, hgrid::NarrowPhase& narrow, const hgrid::Robo
     if (link.joint_kind == hgrid::JointKind::revolute) pose.rotate(Eigen::AngleAxisd(angle, link.axis));
     world_from_links.push_back(pose);
 
-    hgrid::Body body;
-    body.name = "robot/" + link.name;
-    body.kind = hgrid::BodyKind::link;
-    body.robot = "robot";
-    body.link = i;
-    body.rigid_group = link.rigid_group;
-    body.links = matrix;  // adjacent links are allowed pairs
-    body.shapes = link.shapes;
-    body.covered = link.unreadable.empty();  // if a shape could not be read, queries never answer CLEAR
-    if (link.hasGeometry()) put(scene, narrow, body, pose);
+    // The matrix allows pairs of adjacent links. If a shape could not be read, queries never answer CLEAR.
+    if (link.hasGeometry()) put(scene, narrow, hgrid::linkBody(model, i, "robot", matrix), pose);
   }
 }
 

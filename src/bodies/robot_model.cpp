@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geometry/infinity.h"
+#include "hgrid_proximity/bodies/name.h"
 
 namespace hgrid {
 namespace {
@@ -106,6 +108,25 @@ double speedBound(const RobotModel& model, std::uint32_t link, double reach) {
 
 double speedBound(const RobotModel& model, std::uint32_t link) {
   return speedBound(model, link, reachOf(model.links[link].shapes));
+}
+
+Body linkBody(const RobotModel& model, std::uint32_t link, const std::string& robot,
+              std::shared_ptr<const LinkMatrix> links) {
+  const RobotLink& source = model.links[link];
+  Body body;
+  body.name = joined(robot, source.name);
+  body.frame = source.name;
+  body.kind = BodyKind::link;
+  body.robot = robot;
+  body.link = link;
+  body.rigid_group = source.rigid_group;
+  body.links = std::move(links);
+  body.shapes = source.shapes;
+  body.covered = source.unreadable.empty();
+  for (const Refusal& refusal : source.unreadable) {
+    body.note += (body.note.empty() ? "" : "; ") + std::string(name(refusal.code())) + ": " + refusal.what();
+  }
+  return body;
 }
 
 }  // namespace hgrid

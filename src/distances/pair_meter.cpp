@@ -248,7 +248,9 @@ PairDistance PairMeter::State::entryOf(const Snapshot& snapshot, const Job& job)
     entry.approach = Approach::apart;
     entry.time_to_contact = std::numeric_limits<double>::infinity();
   }
-  entry.no_contact_before = snapshot.noContactBefore(entry.first, entry.second, least);
+  const NoContact no_contact = snapshot.noContactBefore(entry.first, entry.second, least);
+  entry.no_contact_before = no_contact.before;
+  if (no_contact.assumed) entry.flags |= kAssumedFlag;
   return entry;
 }
 

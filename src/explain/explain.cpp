@@ -196,7 +196,7 @@ class Words {
 
   std::string grown() const {
     if (!(what_.growth > 0.0) || !hasBoxes()) return {};
-    return " The margin is " + metersText(what_.growth) + " larger than usual because data is old.";
+    return " The margin is " + metersText(what_.growth) + " larger than usual because data is old or comes rarely.";
   }
 
   static std::string freshness(const Body& body, Freshness state, double age) {

@@ -59,16 +59,7 @@ class Sampling {
       if (!link.unreadable.empty()) throw link.unreadable.front();
       if (link.shapes.empty()) continue;
       for (BodyShape& shape : link.shapes) shape.solid = narrow_phase_->solidOf(shape.shape);
-      Body body;
-      body.name = joined("robot", link.name);
-      body.frame = link.name;
-      body.kind = BodyKind::link;
-      body.robot = "robot";
-      body.link = i;
-      body.rigid_group = link.rigid_group;
-      body.links = matrix_;
-      body.shapes = link.shapes;
-      scene.place(scene.add(body), Pose::Identity(), Time{1});
+      scene.place(scene.add(linkBody(model, i, "robot", matrix_)), Pose::Identity(), Time{1});
     }
     snapshot_ = scene.commit(Time{1}, {});
   }

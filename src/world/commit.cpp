@@ -19,6 +19,13 @@ double reachOf(const BodyPose& pose, const Body& body, double growth_after) {
   return body.max_speed * pose.age;
 }
 
+/// Returns how far [m] a point of the body may move until the next pose of a source on time; 0 if such a pose comes
+/// before the body counts as old.
+double reachInPeriod(const BodyPose& pose, const Body& body, double growth_after) {
+  if (pose.state == Freshness::unplaced || !(pose.period > growth_after)) return 0.0;
+  return body.max_speed * pose.period;
+}
+
 constexpr std::uint32_t kAhead = 8;  // how many bodies before its turn a body is loaded into the processor's cache
 
 /// Starts to load the shapes of a body, because other work removes them from the cache between commits. This function
@@ -72,8 +79,9 @@ void Scene::State::makeBoxes(std::size_t body, const Pose& world_from_body, Snap
 void Scene::State::fillPose(std::uint32_t body, Snapshot& snapshot) const {
   BodyPose& pose = snapshot.poses_[body];
   pose = slots[structure->ids[body].slot].pose;
-  pose.reach = reachOf(pose, structure->bodies[body], options.growth_after);
-  pose.growth = std::min(pose.reach, options.growth_cap);
+  const Body& what = structure->bodies[body];
+  pose.reach = reachOf(pose, what, options.growth_after);
+  pose.growth = std::min(std::max(pose.reach, reachInPeriod(pose, what, options.growth_after)), options.growth_cap);
 }
 
 /// Computes the boxes of a body if it has moved since the last commit. @returns whether it has

@@ -254,13 +254,14 @@ void Scene::place(BodyId id, const Pose& world_from_body, Time stamp) {
   slot.moved = true;
 }
 
-void Scene::setState(BodyId id, Freshness state, double age, std::uint32_t cohort) {
+void Scene::setState(BodyId id, Freshness state, double age, std::uint32_t cohort, double period) {
   State::Slot& slot = state_->at(id);
   BodyPose& pose = slot.pose;
   if (pose.state == Freshness::unplaced) return;
   state_->noteChange(id.slot);
   pose.state = state == Freshness::unplaced ? Freshness::invalid : state;  // a placed body stays placed
   pose.age = slot.fixed ? 0.0 : age;
+  pose.period = slot.fixed ? 0.0 : period;
   pose.cohort = cohort;
 }
 

@@ -101,18 +101,22 @@ bool Snapshot::hasGap(const std::string& body) const {
   return std::any_of(gaps_.begin(), gaps_.end(), [&](const SourceGap& gap) { return gap.bodies == body; });
 }
 
-double Snapshot::noContactBefore(std::uint32_t first, std::uint32_t second, double distance) const {
+NoContact Snapshot::noContactBefore(std::uint32_t first, std::uint32_t second, double distance) const {
+  NoContact result;
   double speed = 0.0, left = distance;
   for (const std::uint32_t i : {first, second}) {
     const Body& body = structure_->bodies[i];
     if (body.mobility == Mobility::fixed) continue;
-    if (!std::isfinite(body.speed_bound)) return std::numeric_limits<double>::quiet_NaN();
-    speed += body.speed_bound;
-    left -= body.speed_bound * std::abs(seconds(stamp_ - poses_[i].stamp));
+    const bool is_bounded = std::isfinite(body.speed_bound);
+    const double limit = is_bounded ? body.speed_bound : body.max_speed;
+    if (!std::isfinite(limit)) return {};
+    result.assumed = result.assumed || !is_bounded;
+    speed += limit;
+    left -= limit * std::abs(seconds(stamp_ - poses_[i].stamp));
   }
-  left = std::max(0.0, left);
-  if (left == 0.0) return 0.0;
-  return speed > 0.0 ? left / speed : std::numeric_limits<double>::infinity();
+  const double infinity = std::numeric_limits<double>::infinity();
+  result.before = left <= 0.0 ? 0.0 : speed > 0.0 ? left / speed : infinity;
+  return result;
 }
 
 }  // namespace hgrid

@@ -318,11 +318,12 @@ TEST_F(PairMeterTest, EstimatesHowFastTheyComeNearerAndWhen) {
   EXPECT_TRUE(std::isinf(found->pairs[0].time_to_contact));
 }
 
-TEST_F(PairMeterTest, NoContactBeforeRestsOnBoundsThatSomebodyVouchesFor) {
+TEST_F(PairMeterTest, NoContactBeforeRestsOnBoundsThatSomebodyVouchesForOrIsFlagged) {
   Body slow = ballOf(*phase_, "slow", 0.5), still = test::ball("still", 0.5, Mobility::fixed);
   still.shapes[0].solid = phase_->solidOf(still.shapes[0].shape);
   slow.speed_bound = 0.5;
   Body unknown = ballOf(*phase_, "unknown", 0.5);
+  unknown.max_speed = 2.0;  // nobody vouches for this
   put(scene_, slow, at(0.0), std::chrono::milliseconds(100));
   put(scene_, still, at(1.1), std::chrono::milliseconds(100));
   put(scene_, unknown, at(-1.1), std::chrono::milliseconds(100));
@@ -332,10 +333,11 @@ TEST_F(PairMeterTest, NoContactBeforeRestsOnBoundsThatSomebodyVouchesFor) {
   for (const PairDistance& pair : found->pairs) {
     const bool with_unknown = snapshot_->structure().bodies[pair.second].name == "obstacle/unknown";
     if (with_unknown) {
-      EXPECT_TRUE(std::isnan(pair.no_contact_before));
+      EXPECT_NEAR(pair.no_contact_before, (0.1 - 2.5 * 0.02) / 2.5, 1e-9);
     } else {
       EXPECT_NEAR(pair.no_contact_before, (0.1 - 0.5 * 0.02) / 0.5, 1e-9);
     }
+    EXPECT_EQ(pair.flags & kAssumedFlag, with_unknown ? kAssumedFlag : 0);
   }
 }
 

@@ -269,9 +269,10 @@ TEST_F(Explain, OldDataIsToldWithWhatItDoesToTheMargin) {
   EXPECT_TRUE(says(ask("obstacle/near", "obstacle/box").text, "obstacle/near is LATE: its pose is 0.5 s old."));
   scene_.setState(near_, Freshness::stale, 1.0);
   const Explanation what = ask("obstacle/near", "obstacle/box");
-  EXPECT_TRUE(says(what.text,
-                   "within the margin of 0.375 m. The margin is 0.25 m larger than usual because data is old. "
-                   "obstacle/near is STALE: its pose is 1 s old."));
+  EXPECT_TRUE(
+      says(what.text,
+           "within the margin of 0.375 m. The margin is 0.25 m larger than usual because data is old or comes rarely. "
+           "obstacle/near is STALE: its pose is 1 s old."));
   EXPECT_EQ(what.growth, 0.25);
   EXPECT_EQ(what.margin, 0.375);
   EXPECT_EQ(what.margin_first, kMargin);

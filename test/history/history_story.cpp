@@ -89,7 +89,7 @@ void addPairs(const Snapshot& s, Random& random, Bytes& out) {
     out.add(pair.margin);
     out.add(pair.since.count());
     out.add(pair.flags);
-    out.add(s.noContactBefore(pair.first, pair.second, 1.0));
+    out.add(s.noContactBefore(pair.first, pair.second, 1.0).before);
   }
   const BodyList& bodies = s.structure().bodies;
   for (int i = 0; i < 10 && bodies.size() > 0; ++i) {

@@ -81,17 +81,8 @@ inline std::vector<Body> bodiesOf(const RobotModel& model, const std::string& ro
   std::vector<Body> bodies;
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
     if (!model.links[i].has_collision) continue;
-    Body body;
-    body.name = robot + "/" + model.links[i].name;
-    body.frame = model.links[i].name;
-    body.kind = BodyKind::link;
-    body.shapes = model.links[i].shapes;
-    body.robot = robot;
-    body.link = i;
-    body.rigid_group = model.links[i].rigid_group;
-    body.links = matrix;
-    body.max_speed = 0.5;
-    bodies.push_back(body);
+    bodies.push_back(linkBody(model, i, robot, matrix));
+    bodies.back().max_speed = 0.5;
   }
   return bodies;
 }

@@ -142,21 +142,11 @@ std::vector<std::pair<std::uint32_t, BodyId>> addLinks(Scene& scene, const Robot
                                                        NarrowPhase* narrow_phase, const std::string& robot) {
   std::vector<std::pair<std::uint32_t, BodyId>> bodies;
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
-    const RobotLink& link = model.links[i];
-    if (!link.has_collision) continue;
-    Body body;
-    body.name = robot + "/" + link.name;
-    body.frame = link.name;
-    body.kind = BodyKind::link;
-    body.shapes = link.shapes;
+    if (!model.links[i].has_collision) continue;
+    Body body = linkBody(model, i, robot, matrix);
     if (narrow_phase) {
       for (BodyShape& shape : body.shapes) shape.solid = narrow_phase->solidOf(shape.shape);
     }
-    body.covered = link.unreadable.empty();
-    body.robot = robot;
-    body.link = i;
-    body.rigid_group = link.rigid_group;
-    body.links = matrix;
     bodies.emplace_back(i, scene.add(std::move(body)));
   }
   return bodies;

@@ -21,7 +21,7 @@ from sound_facts import (  # noqa: E402  (the path comes first)
 
 from hgrid_doctor import report  # noqa: E402
 from hgrid_doctor.checks import diagnose  # noqa: E402
-from hgrid_doctor.facts import LOST, STALE, UNPLACED, MeshError, MeshFlaw  # noqa: E402
+from hgrid_doctor.facts import LOST, STALE, UNPLACED, JointValue, MeshError, MeshFlaw, Touch  # noqa: E402
 from hgrid_doctor.finding import EXIT_ERROR, EXIT_OK, EXIT_WARN, exit_code  # noqa: E402
 from hgrid_doctor.settings import InputSettings, read_settings  # noqa: E402
 
@@ -351,8 +351,51 @@ class DoctorChecks(unittest.TestCase):
 
     def test_joint_states_that_lack_a_joint(self):
         self.unplace("hand")
-        self.facts.joints["/joint_states"] = {"turn"}
+        del self.facts.joints["/joint_states"]["bend"]
         self.assertIn("'bend'", self.expect("joint_states_incomplete").what)
+
+    def set_joints(self, **positions):
+        self.facts.joints["/joint_states"] = {name: JointValue(value, 1) for name, value in positions.items()}
+
+    def test_a_joint_that_follows_a_follower_whose_name_comes_later(self):
+        mimics = {"bend": "zoom", "zoom": "turn"}
+        text = URDF.replace('<joint name="weld"', '<joint name="zoom" type="prismatic"><parent link="base"/>'
+                            '<child link="lens"/></joint><link name="lens"/><joint name="weld"')
+        for name, leader in mimics.items():
+            mimic = f'<mimic joint="{leader}" multiplier="2" offset="0.1"/>'
+            text = re.sub(f'(<joint name="{name}".*?)</joint>', rf"\g<1>{mimic}</joint>", text, flags=re.S)
+        self.facts.robots[0].description = parse_urdf(text)
+        self.unplace("hand")
+        self.set_joints(turn=0.0)
+        finding = self.expect("mimic_of_mimic")
+        self.assertIn("joint 'bend' follows 'zoom'", finding.what)
+        self.assertIn("let 'bend' follow 'turn', with multiplier 4 and offset 0.3", finding.fix)
+        self.facts.robots[0].description = parse_urdf(text.replace("zoom", "axis"))  # it comes before "bend"
+        self.assertIn("refuses their stamps", self.expect("state_publisher_silent").what)
+
+    def test_a_joint_that_does_not_follow_its_rule(self):
+        follow = '<mimic joint="turn" multiplier="2"/></joint>'
+        self.facts.robots[0].description = parse_urdf(re.sub('(name="bend".*?)</joint>', rf"\1{follow}", URDF))
+        self.set_joints(turn=0.5, bend=1.005)
+        self.expect()
+        self.set_joints(turn=0.5, bend=0.5)
+        what = self.expect("mimic_differs", code=EXIT_WARN).what
+        self.assertIn("'bend' of robot 'robot' is at 0.5 on /joint_states", what)
+        self.facts.joints["/joint_states"]["bend"] = JointValue(0.5, 2)  # another message
+        self.expect()
+        self.set_joints(turn=0.5, bend=float("nan"))
+        self.expect()
+
+    def test_a_planar_joint_that_is_sent_as_a_fixed_one(self):
+        text = URDF.replace('name="turn" type="revolute"', 'name="turn" type="planar"')
+        self.facts.robots[0].description = parse_urdf(text)
+        self.expect()
+        self.facts.streams[0].static = True
+        self.facts.status.bodies = [body("robot/elbow", UNPLACED), body("robot/hand", UNPLACED)]
+        self.break_source("robot", "UNPLACED robot/elbow")
+        finding = self.expect("static_free_joint")
+        self.assertIn("the planar joint 'turn' of robot 'robot'", finding.what)
+        self.assertIn("Publish the pose of 'elbow' in 'base' on /tf", finding.fix)
 
     def test_a_state_publisher_of_another_description(self):
         self.unplace("elbow", "hand")
@@ -641,7 +684,11 @@ class DoctorChecks(unittest.TestCase):
 
     def test_stale_poses(self):
         self.facts.status.sources[0].state = STALE
-        self.expect("source_stale", code=EXIT_WARN)
+        self.assertNotIn("publish_frequency", self.expect("source_stale", code=EXIT_WARN).what)
+        self.facts.topics["/joint_states"] = TopicFacts({"/driver": 100})
+        what = self.expect("source_stale", code=EXIT_WARN).what
+        self.assertIn("/rsp sends only 17 transforms a second of the 33 on /joint_states", what)
+        self.assertIn("~publish_frequency", what)
 
     def test_pairs_that_are_cut_off(self):
         self.facts.status.world.complete = False
@@ -652,6 +699,38 @@ class DoctorChecks(unittest.TestCase):
         self.expect("all_pairs_off", code=EXIT_WARN)
         self.facts.status.sources.append(source("obstacle"))
         self.expect()
+
+    def test_rules_that_hide_pairs_until_somebody_removes_them(self):
+        def rule(lifetime):
+            times = {name: SimpleNamespace(to_sec=lambda value=value: value)
+                     for name, value in (("lifetime", lifetime), ("since", 12.0))}
+            return SimpleNamespace(first="robot/*", second="b", allowed=True, reason="test", set_by="/x", **times)
+
+        self.facts.graph.use_sim_time, self.facts.clock = True, [1.0, 2.0]
+        self.facts.graph.publishers["/clock"] = ["/driver"]
+        self.facts.rules = [rule(5.0)]
+        self.facts.pairs_off = 8
+        self.expect()
+        self.facts.rules = [rule(0.0)]
+        finding = self.expect("rules_hide_pairs", code=EXIT_WARN)
+        self.assertIn("hide 8 pairs", finding.what)
+        self.assertIn("""'robot/*' with 'b', set by /x at 12.0 s, because "test".""", finding.what)
+        self.assertIn("remove: true", finding.fix)
+        self.facts.pairs_off = 0
+        self.expect()
+
+    def test_links_that_touch(self):
+        self.facts.touching = [Touch("robot/base", "robot/hand", 5.0), Touch("other/a", "other/b", 5.0)]
+        finding = self.expect("links_touch", code=EXIT_WARN)
+        self.assertIn("1 pair of links of robot 'robot' touch each other", finding.what)
+        self.assertIn("make_srdf", finding.fix)
+
+    def test_static_transforms_that_a_python_broadcaster_may_have_dropped(self):
+        self.facts.streams = [stream("/lamp", "map", "lamp", static=True, count=1), *self.facts.streams[1:]]
+        self.facts.settings.world_frame = self.facts.status.header.frame_id = "map"
+        self.unplace("hand")
+        self.facts.streams.append(stream("/rsp", "elbow", "hand"))
+        self.assertIn("'/lamp' on /tf_static may have sent more than it latches", self.expect("two_trees").what)
 
     def test_warnings_of_the_node(self):
         self.facts.status.model_warnings = ["~margins: 'x' matches no body", "another"]

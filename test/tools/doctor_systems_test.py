@@ -32,6 +32,11 @@ PERSONS = (
 BASE_MESH = '<mesh filename="%s"/>'
 BASE_SHAPE = '<cylinder length="0.04" radius="0.10"/>'
 OTHER_JOINT = '<joint name="z" type="continuous"><parent link="x"/><child link="y"/></joint>'
+BALL = '<collision><geometry><sphere radius="0.1"/></geometry></collision>'
+TOUCHING = """<robot name="touching"> <link name="a">{0}</link> <link name="b">{0}</link> <link name="c">{0}</link>
+  <joint name="joint_1" type="continuous"><parent link="a"/><child link="b"/></joint>
+  <joint name="joint_2" type="continuous"><parent link="b"/><child link="c"/></joint>
+</robot>""".format(BALL)
 UNKNOWN_LINK = '<disable_collisions link1="base_link" link2="unknown" reason="Never"/></robot>'
 TRIANGLE = """solid a
 facet normal 0 0 1 outer loop vertex 0 0 0 vertex 0.1 0 0 vertex 0 0.1 0 endloop endfacet
@@ -73,6 +78,8 @@ NOT_TYPED = {  # findings whose fix no test types, and why; doctor_checks_test.p
     "joint_states_incomplete": SHOWS,
     "joint_states_silent": SHOWS,
     "links_without_collision": OTHER,  # no_collision
+    "mimic_differs": NO_COMMAND,
+    "mimic_of_mimic": NO_COMMAND,
     "model_warnings": SHOWS,
     "node_restarts": SHOWS,
     "not_a_proximity_node": SHOWS,
@@ -81,6 +88,7 @@ NOT_TYPED = {  # findings whose fix no test types, and why; doctor_checks_test.p
     "stamps_of_other_clock": NO_COMMAND,
     "stamps_zero": NO_COMMAND,
     "state_publisher_of_other_robot": OTHER,  # state_publisher_silent
+    "static_free_joint": NO_COMMAND,
     "status_silent": OTHER,  # node_on_other_clock
     "tf_publisher_gone": NO_COMMAND,
     "ticks_late": OTHER,  # pairs_truncated
@@ -353,6 +361,22 @@ class DoctorSystems(unittest.TestCase):
             system.write("my_robot.srdf", semantic)
             for command in fix:
                 self.type(command)
+        self.expect_quiet()
+
+    @in_all_systems
+    def test_pairs_that_rules_hide_and_links_that_touch(self):
+        system = self.system
+        self.sound_robot(description=TOUCHING, semantic="")
+        system.node(complete, obstacles=[TABLE])
+        (fix,) = self.expect(2, "links_touch")
+        system.write("my_robot.urdf", TOUCHING)
+        for command in fix:
+            self.type(command)
+        self.expect_quiet()
+        rule = "{rules: [{first: robot/*, second: obstacle/table, allowed: true, reason: a test}]}"
+        self.type("rosservice call /proximity/set_allowed '%s'" % rule)
+        (fix,) = self.expect(2, "rules_hide_pairs")
+        self.type(fix[0])
         self.expect_quiet()
 
     @in_all_systems

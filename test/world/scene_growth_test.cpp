@@ -35,6 +35,25 @@ class Growth : public ::testing::Test {
   int tick_ = 0;
 };
 
+/// A source whose poses are always old before the next one comes would begin and end the same pair with each pose.
+TEST_F(Growth, OfABodyWhosePosesComeRarelyDoesNotComeAndGo) {
+  const BodyId id = test::put(scene_, slowBall("a", 2.0), test::at(0));
+  test::put(scene_, slowBall("b", 2.0), test::at(2.0));  // the two boxes are 1 m apart
+  for (const double age : {0.0, 0.125, 0.25, 0.375, 0.5, 0.0, 0.25, 0.5}) {
+    scene_.setState(id, Freshness::fresh, age, 0, 0.5);
+    EXPECT_EQ(now().poses()[0].growth, 1.0) << "the reach after one period";
+    EXPECT_EQ(snapshot_->poses()[0].reach, age > 0.25 ? 2.0 * age : 0.0) << "queries widen only by the age";
+    EXPECT_EQ(snapshot_->pairs().size(), 1u);
+    EXPECT_EQ(snapshot_->events().size(), snapshot_->sequence() == 1 ? 1u : 0u);
+  }
+  scene_.setState(id, Freshness::stale, 0.75, 0, 0.5);
+  EXPECT_EQ(now().poses()[0].growth, 1.5) << "the source is late";
+  scene_.setState(id, Freshness::fresh, 0.0, 0, 0.25);
+  EXPECT_EQ(now().poses()[0].growth, 0.0) << "the next pose comes before this one is old";
+  scene_.setState(id, Freshness::fresh, 0.0, 0, 5.0);
+  EXPECT_EQ(now().poses()[0].growth, 2.0) << "the growth cap";
+}
+
 TEST_F(Growth, BeginsWhenThePoseIsOldWhateverTheStateIsCalled) {
   const BodyId id = test::put(scene_, slowBall("a", 2.0), test::at(0));
   test::put(scene_, slowBall("b", 2.0), test::at(1.75));  // the two boxes are 0.75 m apart
@@ -138,8 +157,25 @@ TEST_F(Growth, TheTimeWithoutContactCountsTheWayBackFromALaterPose) {
   test::put(scene_, fast, test::at(0), std::chrono::milliseconds(300));
   test::put(scene_, test::ball("wall", 0.5, Mobility::fixed), test::at(2));
   const auto snapshot = scene_.commit(std::chrono::milliseconds(100), {});
-  EXPECT_NEAR(snapshot->noContactBefore(0, 1, 0.5), 0.3, 1e-9);
-  EXPECT_EQ(snapshot->noContactBefore(0, 1, 0.1), 0.0);
+  EXPECT_NEAR(snapshot->noContactBefore(0, 1, 0.5).before, 0.3, 1e-9);
+  EXPECT_EQ(snapshot->noContactBefore(0, 1, 0.1).before, 0.0);
+  EXPECT_FALSE(snapshot->noContactBefore(0, 1, 0.5).assumed);
+}
+
+TEST_F(Growth, TheTimeWithoutContactOfABodyWithoutBoundIsAssumed) {
+  Body bounded = slowBall("a", 4.0);
+  bounded.speed_bound = 1.0;
+  test::put(scene_, bounded, test::at(0));
+  test::put(scene_, slowBall("b", 3.0), test::at(2));
+  Body any = test::ball("c");
+  any.max_speed = std::numeric_limits<double>::infinity();
+  test::put(scene_, any, test::at(4));
+  now();
+  const NoContact assumed = snapshot_->noContactBefore(0, 1, 0.5);
+  EXPECT_NEAR(assumed.before, 0.5 / (1.0 + 3.0), 1e-9);
+  EXPECT_TRUE(assumed.assumed);
+  EXPECT_TRUE(std::isnan(snapshot_->noContactBefore(0, 2, 0.5).before));
+  EXPECT_FALSE(snapshot_->noContactBefore(0, 2, 0.5).assumed);
 }
 
 /// Links 0 and 2 of one arm, which no joint connects directly, and link 2 of another arm.

@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 import xml.etree.ElementTree as xml
 from dataclasses import dataclass, field
-from typing import Dict, List, Set
+from typing import Dict, List, Set, Tuple
 
 
 @dataclass
@@ -26,6 +26,9 @@ class Joint:
     type: str
     parent: str
     child: str
+    mimic: str = ""  # name of the joint that it follows; empty: none
+    multiplier: float = 1.0  # of the position of that joint
+    offset: float = 0.0  # [rad] or [m]
 
 
 @dataclass
@@ -57,6 +60,28 @@ class Description:
             link = above[link].parent
         return names
 
+    def known_to_state_publisher(self, received: Set[str]) -> Set[str]:
+        """Returns the joints whose positions robot_state_publisher knows. It goes once through the joints that follow
+        others, in the order of their names."""
+        known = set(received)
+        for joint in sorted(self.joints, key=lambda each: each.name):
+            if joint.mimic in known:
+                known.add(joint.name)
+        return known
+
+    def end_of_mimicry(self, joint: Joint) -> Tuple[str, float, float]:
+        """Returns the joint that moves by itself at the end of a chain of joints that follow each other, and the
+        multiplier and offset by which `joint` follows it."""
+        by_name = {each.name: each for each in self.joints}
+        leader, multiplier, offset = joint.mimic, joint.multiplier, joint.offset
+        for _ in self.joints:
+            if leader not in by_name or not by_name[leader].mimic:
+                break
+            followed = by_name[leader]
+            leader, offset = followed.mimic, offset + multiplier * followed.offset
+            multiplier *= followed.multiplier
+        return leader, multiplier, offset
+
 
 @dataclass
 class Semantic:
@@ -87,7 +112,7 @@ def parse_urdf(text: object) -> Description:
         parent, child = element.find("parent"), element.find("child")
         if parent is not None and child is not None:
             names = parent.get("link", ""), child.get("link", "")
-            result.joints.append(Joint(element.get("name", ""), element.get("type", ""), *names))
+            result.joints.append(Joint(element.get("name", ""), element.get("type", ""), *names, *_mimic_of(element)))
     result.joint_above = {joint.child: joint for joint in result.joints}
     result.root = next((name for name in result.links if name not in result.joint_above), "")
     return result
@@ -106,6 +131,19 @@ def parse_srdf(text: object) -> Semantic:
         result.rules += 1
         result.links.add(element.get("link", ""))
     return result
+
+
+def _mimic_of(joint):
+    """Returns the joint that this joint follows, the multiplier and the offset. Numbers that are none count as NaN."""
+
+    def number(name, default):
+        try:
+            return float(mimic.get(name, default))
+        except ValueError:
+            return float("nan")
+
+    mimic = joint.find("mimic")
+    return () if mimic is None else (mimic.get("joint", ""), number("multiplier", 1.0), number("offset", 0.0))
 
 
 def _parse(text):

@@ -87,6 +87,14 @@ class TopicFacts:
         return sum(self.counts.values())
 
 
+@dataclass(frozen=True)
+class JointValue:
+    """The newest position of a joint in a topic of joint states."""
+
+    position: float  # [rad] or [m]; NaN: the message has none
+    message: int  # number of the message: joints with equal numbers were measured together
+
+
 class MeshFlaw(Enum):
     """The kinds of reasons why a mesh cannot be read."""
 
@@ -101,6 +109,19 @@ class MeshError:
 
     flaw: MeshFlaw
     text: str
+
+
+@dataclass(frozen=True)
+class Touch:
+    """Two links of one robot that touch."""
+
+    first: str  # full name: robot/link
+    second: str
+    since: float  # [s] ROS time when they became a near pair
+
+    @property
+    def robot(self) -> str:
+        return self.first.partition("/")[0]
 
 
 @dataclass
@@ -135,11 +156,14 @@ class Facts:
     topics: Dict[str, TopicFacts] = field(default_factory=dict)
     clock: List[float] = field(default_factory=list)  # [s] values received on /clock
     streams: List[TfStream] = field(default_factory=list)
-    joints: Dict[str, Set[str]] = field(default_factory=dict)  # names of received joints, by topic
+    joints: Dict[str, Dict[str, JointValue]] = field(default_factory=dict)  # received joints by name, by topic
     descriptions_of_nodes: Dict[str, str] = field(default_factory=dict)  # robot_description that a node finds
     status_error: str = ""  # why ~status could not be read
     first_status: Any = None  # hgrid_proximity/Status
     status: Any = None  # the newest status
+    rules: List[Any] = field(default_factory=list)  # rules of ~set_allowed: hgrid_proximity/AllowedPair
+    pairs_off: int = 0  # number of pairs that these rules switch off
+    touching: List[Touch] = field(default_factory=list)
     map_file_errors: Dict[str, str] = field(default_factory=dict)  # why the file of a map cannot be read, by source
 
     def alive(self, node: str) -> bool:

@@ -77,6 +77,11 @@ def reload_command(facts: Facts, robot: RobotFacts) -> str:
     return f"`rosservice call {facts.node}/reload_robot {request}`"
 
 
+def remove_rule(facts: Facts, rule: Any) -> str:
+    request = yaml_line({"rules": [{"first": rule.first, "second": rule.second}], "remove": True})
+    return f"`rosservice call {facts.node}/set_allowed {shlex.quote('{' + request + '}')}`"
+
+
 def publish_frame(parent: str, child: str) -> str:
     """Returns a command that places a frame at its parent. It needs no package beside rostopic."""
     rotation = {"rotation": {"w": 1.0}}

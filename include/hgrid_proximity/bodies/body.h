@@ -84,8 +84,8 @@ struct Body {
   std::vector<BodyShape> shapes;            ///< may be empty, if no shape could be read
   double margin = 0.0;                      ///< [m] margin of this body; a larger global margin takes precedence
   double max_speed = std::numeric_limits<double>::infinity();  ///< [m/s] expected largest speed of its points
-  /// [m/s] Guaranteed largest speed of its points; infinite if there is no guarantee. Only this value, not max_speed,
-  /// bounds the time until a contact is possible.
+  /// [m/s] Guaranteed largest speed of its points; infinite if there is no guarantee. It bounds the time until a
+  /// contact is possible. Where it is infinite, max_speed does, and the pair is flagged (NoContact::assumed).
   double speed_bound = std::numeric_limits<double>::infinity();
   bool covered = true;  ///< whether every shape in the description of the body could be read
   bool waived = false;  ///< whether the body is not covered, but the user accepts this

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -69,5 +70,12 @@ double reachOf(const std::vector<BodyShape>& shapes);
 double speedBound(const RobotModel& model, std::uint32_t link, double reach);
 /// As above, for the shapes of the link.
 double speedBound(const RobotModel& model, std::uint32_t link);
+
+/// Returns a link as a body "robot/link" of a scene, in the tf frame of its name. It is not covered if one of its
+/// shapes could not be read; then no query and no state near it is CLEAR.
+/// @param robot  name of the robot in the scene
+/// @param links  which pairs of links may touch
+Body linkBody(const RobotModel& model, std::uint32_t link, const std::string& robot,
+              std::shared_ptr<const LinkMatrix> links);
 
 }  // namespace hgrid

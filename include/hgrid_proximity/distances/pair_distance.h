@@ -35,7 +35,7 @@ struct PairDistance {
   std::uint32_t first_shape = 0;   ///< index of the nearest shape among the shapes of the first body
   std::uint32_t second_shape = 0;  ///< index of the nearest shape among the shapes of the second body
   double gap = 0.0;                ///< [m] distance of the boxes of the two bodies
-  std::uint8_t flags = 0;          ///< the same as NearPair::flags
+  std::uint8_t flags = 0;          ///< bits of PairFlags
   Proximity proximity;             ///< how the nearest shapes lie relative to each other
   /// [m] Lower bound of the distance of the pair at the stamp of the snapshot. At the poses, it is the distance if that
   /// is known for this tick; if not, the larger of two values: `gap`, and the last measured distance minus how far the
@@ -47,7 +47,7 @@ struct PairDistance {
   Approach approach = Approach::unknown;  ///< what the next two values mean
   double closing_speed = Proximity::kUnknown;      ///< [m/s] estimate from past ticks; > 0: the bodies come closer
   double time_to_contact = Proximity::kUnknown;    ///< [s] estimate; infinite if the bodies do not come closer
-  double no_contact_before = Proximity::kUnknown;  ///< [s] the result of Snapshot::noContactBefore()
+  double no_contact_before = Proximity::kUnknown;  ///< [s] NoContact::before; NoContact::assumed is kAssumedFlag
 };
 
 /// Measures one pair of bodies of a snapshot, even if the bodies are far apart. Both bodies must have poses. The result

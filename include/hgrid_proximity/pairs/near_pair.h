@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "hgrid_proximity/bodies/body.h"
 
@@ -12,6 +13,16 @@ namespace hgrid {
 enum PairFlags : std::uint8_t {
   kHorizonFlag = 1,   ///< the two bodies can meet within the horizon, or they passed each other since the last tick
   kTeleportFlag = 2,  ///< one of the bodies moved farther since the last tick than its max_speed allows
+  kAssumedFlag = 4,   ///< NoContact::assumed
+};
+
+/// For how long two bodies do not meet.
+struct NoContact {
+  /// [s] NaN if the speed of one of the bodies is not limited; infinite if neither body can move.
+  double before = std::numeric_limits<double>::quiet_NaN();
+  /// Whether Body::max_speed limits the speed of a body that has no Body::speed_bound. Then the time is an expectation.
+  /// Otherwise it is guaranteed.
+  bool assumed = false;
 };
 
 /// A pair of bodies whose boxes are within their margin, or may soon be.

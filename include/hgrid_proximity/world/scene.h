@@ -24,10 +24,12 @@ struct SceneOptions {
   /// [m, world] Rooms with solid walls, and doors: bodies without a common room make no pair, see BodyRooms. Null:
   /// none.
   std::shared_ptr<const Building> building;
-  double finest_edge = 0.0;    ///< [m] GridScale::finest_edge, 1e-6 .. 1e3; 0: computed from the sizes of the bodies
-  double world_limit = 1e6;    ///< [m] poses with a larger coordinate on any axis are refused; at most 1e6
-  double growth_cap = 1.0;     ///< [m] largest growth of the margins of a stale body, 0 .. 1e3
-  double growth_after = 0.25;  ///< [s] if the pose of a body is older than this, its margins grow in every state
+  double finest_edge = 0.0;  ///< [m] GridScale::finest_edge, 1e-6 .. 1e3; 0: computed from the sizes of the bodies
+  double world_limit = 1e6;  ///< [m] poses with a larger coordinate on any axis are refused; at most 1e6
+  double growth_cap = 1.0;   ///< [m] largest growth of the margins of a stale body, 0 .. 1e3
+  /// [s] If the pose of a body is older than this, its margins grow in every state. If the period of its source is
+  /// longer, they grow always.
+  double growth_after = 0.25;
   std::size_t max_bodies = 100000;  ///< largest number of bodies in the scene
   std::size_t max_planes = 64;      ///< largest number of planes; a tick compares each with bodies that can move
   /// Maximum number of pairs that a snapshot lists; 0: no limit. It also bounds the work and the memory of a tick: the
@@ -145,10 +147,10 @@ class Scene {
   void place(BodyId id, const Pose& world_from_body, Time stamp);
   /// Throws what place() would throw for the same arguments, and changes nothing.
   void checkPlace(BodyId id, const Pose& world_from_body) const;
-  /// Sets how far the pose of a body can be trusted. `age` is in seconds; `cohort` is BodyPose::cohort. Does nothing
-  /// for a body that has no pose. For a body that has a pose, `unplaced` counts as `invalid`.
+  /// Sets how far the pose of a body can be trusted. `age` is in seconds; `cohort` and `period` [s] are those of
+  /// BodyPose. Does nothing for a body that has no pose. For a body that has a pose, `unplaced` counts as `invalid`.
   /// @throws Refusal unknown_id if the handle is not valid
-  void setState(BodyId id, Freshness state, double age, std::uint32_t cohort = 0);
+  void setState(BodyId id, Freshness state, double age, std::uint32_t cohort = 0, double period = 0.0);
   /// Returns the last known pose of a body. @throws Refusal unknown_id if the handle is not valid
   const BodyPose& poseOf(BodyId id) const;
 

@@ -124,10 +124,9 @@ class Snapshot {
   /// hold planes.
   const BroadPhaseReader& broadPhase() const { return *broad_phase_; }
 
-  /// Returns for how long [s] after stamp() two bodies surely do not meet if they are at least `distance` [m] apart at
-  /// their poses. The time follows from Body::speed_bound. It is shorter if a pose is older than stamp(). NaN if one of
-  /// the bodies has no speed bound; infinite if neither body can move.
-  double noContactBefore(std::uint32_t first, std::uint32_t second, double distance) const;
+  /// Returns for how long after stamp() two bodies do not meet if they are at least `distance` [m] apart at their
+  /// poses. The time is shorter if a pose is older than stamp().
+  NoContact noContactBefore(std::uint32_t first, std::uint32_t second, double distance) const;
 
  private:
   friend class Scene;

@@ -157,6 +157,8 @@ AuditCase caseOf(const Tick& tick, const TransformRecord::Content& record, std::
   TransformList transforms(result);
   for (const auto& [key, transform] : *record.fixed) transforms.append(transform, key.second, true, Time(0));
   for (const TransformRecord::Message& message : record.moving) transforms.append(*message);
+  const auto free_frames = freeFrames(*tick.robots);
+  result.free_frames.assign(free_frames.begin(), free_frames.end());
   result.all_static = record.all_static;
   result.record_begin = record.begin;
   const BodyList& bodies = snapshot.structure().bodies;

@@ -69,6 +69,7 @@ struct AuditCase {
   // What the node received.
   std::vector<std::string> names;             // names of all frames and publishers; no name is there twice
   std::vector<RecordedTransform> transforms;  // first those of /tf_static, then those of /tf in the order of reading
+  std::vector<std::string> free_frames;       // frames that planar and floating joints move; sorted
   bool all_static = true;                     // false: some transforms of /tf_static are missing
   Time record_begin{0};                       // [ROS time] transforms of /tf from this time or earlier may be missing
   std::vector<Body> bodies;                   // sorted by name; an audit does not use Body::links and BodyShape::solid

@@ -11,7 +11,7 @@
 namespace hgrid {
 namespace {
 
-constexpr const char* kTitle = "hgrid_proximity_audit_4";  // kind and version of the file
+constexpr const char* kTitle = "hgrid_proximity_audit_5";  // kind and version of the file
 
 // Each pass() function writes a value if the file is a TextWriter. If the file is a TextReader, it reads the value.
 
@@ -21,6 +21,7 @@ void pass(File& file, BodyPose& pose) {
   file.value(pose.state);
   pass(file, pose.stamp);
   file.value(pose.age);
+  file.value(pose.period);
   pass(file, pose.world_from_body);
 }
 
@@ -140,6 +141,10 @@ void passCase(File& file, AuditCase& audited) {
   passRooms(file, audited);
   passAll(file, "names", audited.names, {}, [&](std::string& name) {
     file.line("name");
+    file.value(name);
+  });
+  passAll(file, "free_frames", audited.free_frames, {}, [&](std::string& name) {
+    file.line("free_frame");
     file.value(name);
   });
   passAll(file, "transforms", audited.transforms, {}, [&](RecordedTransform& transform) { pass(file, transform); });

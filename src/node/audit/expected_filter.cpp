@@ -69,9 +69,11 @@ bool ExpectedFilter::reports(std::uint32_t first, std::uint32_t second) const {
 
 double ExpectedFilter::growthOf(std::uint32_t body) const {
   const BodyPose& pose = audited_.poses[body];
+  if (pose.state == Freshness::unplaced) return 0.0;
   const bool old = pose.state >= Freshness::stale || pose.age > audited_.growth_after;
-  if (!old || !(pose.age > 0.0)) return 0.0;
-  return std::min(audited_.growth_cap, audited_.bodies[body].max_speed * pose.age);
+  const double grows_for = std::max(old ? pose.age : 0.0, pose.period > audited_.growth_after ? pose.period : 0.0);
+  if (!(grows_for > 0.0)) return 0.0;
+  return std::min(audited_.growth_cap, audited_.bodies[body].max_speed * grows_for);
 }
 
 double ExpectedFilter::marginOf(std::uint32_t first, std::uint32_t second) const {

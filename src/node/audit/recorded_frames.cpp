@@ -21,6 +21,9 @@ bool isValid(const RecordedTransform& transform, double max_future) {
 RecordedFrames::RecordedFrames(const AuditCase& audited) : audited_(audited), frames_(audited.names.size()) {
   for (std::size_t number = 0; number < audited.names.size(); ++number) numbers_.emplace(audited.names[number], number);
   for (const RecordedTransform& transform : audited.transforms) add(transform);
+  for (const std::string& name : audited.free_frames) {
+    if (const auto number = numberOf(name)) frames_[*number].free = true;
+  }
   for (Frame& frame : frames_) finish(frame);
 }
 
@@ -53,6 +56,7 @@ void RecordedFrames::add(const RecordedTransform& transform) {
 
 void RecordedFrames::finish(Frame& frame) {
   if (frame.fixed && frame.moves) frame.doubtful = true;
+  if (frame.free && !frame.moves) frame.samples.clear();  // its static pose says nothing
   if (!frame.moves) return;
   const auto earlier = [](const Sample& a, const Sample& b) { return a.stamp < b.stamp; };
   const auto same = [](const Sample& a, const Sample& b) { return a.stamp == b.stamp; };

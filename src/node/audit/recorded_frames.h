@@ -53,6 +53,7 @@ class RecordedFrames {
     std::vector<Sample> samples;  // sorted by stamp, one for each stamp; a static frame has one sample
     std::uint32_t publisher = 0;  // of the last recorded transform; index in AuditCase::names
     bool moves = false, fixed = false, doubtful = false;
+    bool free = false;  // whether a planar or floating joint moves it
   };
 
   std::optional<std::size_t> numberOf(const std::string& name) const;

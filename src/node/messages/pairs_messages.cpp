@@ -26,8 +26,9 @@ void fillPairs(const Snapshot& snapshot, const std::vector<std::uint32_t>& numbe
     message.gap[i] = pair.gap;
     message.margin[i] = pair.margin;
     message.since[i] = toRos(pair.since);
-    message.no_contact_before[i] = snapshot.noContactBefore(pair.first, pair.second, pair.gap);
-    message.flags[i] = pair.flags;
+    const NoContact no_contact = snapshot.noContactBefore(pair.first, pair.second, pair.gap);
+    message.no_contact_before[i] = no_contact.before;
+    message.flags[i] = pair.flags | (no_contact.assumed ? kAssumedFlag : 0);
     message.state[i] =
         static_cast<std::uint8_t>(std::max(snapshot.poses()[pair.first].state, snapshot.poses()[pair.second].state));
   }

@@ -72,6 +72,9 @@ void AllowedServices::set(ServiceCall<msg::SetAllowed>& call) const {
   const PreparedRules rules{filter, structure.revision};
   call.tick = AnswerTick(change_world_([rules](World& world) { world.setRules(rules); }));
   call.response.durable = wait_until_stored_();
+  const auto count = static_cast<unsigned long long>(changed);
+  ROS_INFO("%s %s %zu rules by ~set_allowed, which switches %llu pairs of bodies off or on again", call.caller.c_str(),
+           call.request.remove ? "removed" : "added", call.request.rules.size(), count);
   call.response.pairs_changed = static_cast<std::uint32_t>(std::min<std::uint64_t>(changed, 0xffffffffu));
 }
 

@@ -12,18 +12,11 @@
 #include "hgrid_proximity/bodies/name.h"
 #include "node/sources/body_params.h"
 #include "node/sources/mesh_policy.h"
+#include "node/sources/state_publisher.h"
 #include "node/tf/frame_names.h"
 
 namespace hgrid {
 namespace {
-
-std::string noteOf(const RobotLink& link) {
-  std::string note;
-  for (const Refusal& refusal : link.unreadable) {
-    note += (note.empty() ? "" : "; ") + std::string(name(refusal.code())) + ": " + refusal.what();
-  }
-  return note;
-}
 
 /// Returns the last waiver whose pattern matches the name, or null.
 const Waiver* waiverOf(const std::vector<Waiver>& waivers, const std::string& name) {
@@ -37,22 +30,14 @@ bool rests(const LoadedRobot& robot, const Params& params) {
   return robot.root_frame == params.world_frame || params.world_frame.empty();
 }
 
-Body bodyOf(const LoadedRobot& robot, const RobotModel& model, std::uint32_t index, const Params& params) {
-  const RobotLink& link = model.links[index];
-  Body body;
-  body.name = joined(robot.name, link.name);
-  body.kind = BodyKind::link;
-  body.mobility = Mobility::moving;
-  body.robot = robot.name;
-  body.link = index;
-  body.rigid_group = link.rigid_group;
-  body.shapes = link.shapes;
-  body.covered = link.unreadable.empty();
-  body.note = noteOf(link);
+Body bodyOf(const LoadedRobot& robot, std::uint32_t index, const std::string& tf_prefix, const Params& params) {
+  const RobotModel& model = robot.read->model;
+  Body body = linkBody(model, index, robot.name, robot.read->links);
+  body.frame = prefixed(tf_prefix, body.frame);
   const Waiver* waiver = body.covered ? nullptr : waiverOf(params.accept_uncovered, body.name);
   if (waiver != nullptr) {
     body.waived = true;
-    body.note = waiver->reason + " (" + noteOf(link) + ")";
+    body.note = waiver->reason + " (" + body.note + ")";
   }
   applyPatterns(params, body);
   body.max_speed =
@@ -172,6 +157,8 @@ LoadedRobot RobotSource::make(const RobotSpec& spec, const std::shared_ptr<const
   robot.warnings = read->warnings;
   robot.self_pairs = read->self_pairs;
   robot.read = read;
+  robot.free_frames = freeFrames(model, tf_prefix);
+  robot.unsent_frames = unsentFrames(model, tf_prefix);
   robot.groups.resize(model.group_roots.size());
   for (std::size_t group = 0; group < robot.groups.size(); ++group) {
     robot.groups[group].frame = prefixed(tf_prefix, model.links[model.group_roots[group]].name);
@@ -184,9 +171,7 @@ LoadedRobot RobotSource::make(const RobotSpec& spec, const std::shared_ptr<const
       continue;
     }
     robot.groups[link.rigid_group].members.emplace_back(robot.bodies.size(), link.group_from_link);
-    robot.bodies.push_back(bodyOf(robot, model, i, params_));
-    robot.bodies.back().links = read->links;
-    robot.bodies.back().frame = prefixed(tf_prefix, link.name);
+    robot.bodies.push_back(bodyOf(robot, i, tf_prefix, params_));
     if (link.uses_visual) robot.uses_visual.push_back(robot.bodies.back().name);
   }
   findGap(robot, params_);

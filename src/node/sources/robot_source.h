@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +41,9 @@ struct LoadedRobot {
   std::string root_frame;
   std::vector<Body> bodies;  // one body for each link that has geometry
   std::vector<Group> groups;
+  std::set<std::string, std::less<>> free_frames;  // frames of the links that a planar or floating joint moves
+  /// Frames of links that robot_state_publisher may never send, and why, as the end of a sentence.
+  std::map<std::string, std::string> unsent_frames;
   std::map<std::string, Seat> links;           // all links, by full name (robot/link)
   std::vector<std::string> without_collision;  // names of the other links
   std::vector<std::string> uses_visual;        // names of the bodies whose shapes are the link's visual geometry

@@ -51,8 +51,17 @@ Descriptions textsOf(const RobotEntries& robots) {
   return texts;
 }
 
-/// In rules that an earlier version of the node stored, a question mark was a glob for one letter.
-void warnOfQuestionMarks(const std::vector<PairRule>& rules) {
+/// Says that rules of an earlier run are in force, because they hide pairs. In rules that an earlier version of the
+/// node stored, a question mark was a glob for one letter.
+void warnOfRules(const std::vector<PairRule>& rules) {
+  if (!rules.empty()) {
+    const PairRule& first = rules.front();
+    ROS_WARN(
+        "%zu rules that an earlier run of the node stored are in force; the first one: '%s' with '%s', %s, set by "
+        "%s%s%s",
+        rules.size(), first.first.c_str(), first.second.c_str(), first.allowed ? "allowed" : "not allowed",
+        first.set_by.c_str(), first.reason.empty() ? "" : ", because ", first.reason.c_str());
+  }
   for (const PairRule& rule : rules) {
     if ((rule.first + rule.second).find('?') == std::string::npos) continue;
     ROS_WARN(
@@ -94,7 +103,7 @@ void StateKeeper::open() {
   for (const std::string& trouble : restored_.troubles) ROS_ERROR("%s", trouble.c_str());
   for (const std::string& key : restored_.unreadable) items_.erase(key);
   seen_rules_ = restored_.rules;
-  warnOfQuestionMarks(restored_.rules);
+  warnOfRules(restored_.rules);
 }
 
 StateKeeper::~StateKeeper() {

@@ -50,6 +50,8 @@ std::optional<Refusal> FramePoses::troubleOf(std::size_t frame) const {
   const std::uint32_t contested = state.connected ? state.contested : contestedFrom(tree_.numberOf(frame));
   if (contested != TfIntake::kNone) return Refusal(Code::conflict, intake_.claims().sentence(contested));
   if (state.refused != nullptr) return *state.refused;
+  if (state.free_but_static != TfIntake::kNone)
+    return Refusal(Code::unsupported, freeButStatic(intake_.table().name(state.free_but_static)));
   if (!state.connected) return notConnected(frame);
   return std::nullopt;
 }

@@ -55,8 +55,9 @@ class FramePoses {
   /// @param in_use  the pose in use. A pose with an older stamp replaces it only if it is the pose at the time of the
   ///                tick. If no pose is in use yet, the newest pose is returned, even if it is newer than the tick.
   std::optional<Found> find(std::size_t frame, const KeptPose& in_use) const;
-  /// Returns what is wrong with the transforms of a frame: the newest one was refused, or the frame is contested. With
-  /// code unknown_frame, it says why the frame is not connected to the world frame. Empty: nothing is wrong.
+  /// Returns what is wrong with the transforms of a frame: the newest one was refused, the frame is contested, or (code
+  /// unsupported) a planar or floating joint moves a frame of its chain that is only on /tf_static. With code
+  /// unknown_frame, it says why the frame is not connected to the world frame. Empty: nothing is wrong.
   std::optional<Refusal> troubleOf(std::size_t frame) const;
   /// Returns the name of a frame that was never published, if this is why `frame` is not connected. Otherwise empty.
   const std::string& unknownFrame(std::size_t frame) const { return tree_.unknownFrame(frame); }

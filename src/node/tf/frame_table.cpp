@@ -37,7 +37,9 @@ std::uint32_t FrameTable::add(std::string_view name) {
   const auto number = static_cast<std::uint32_t>(entries_.size());
   if (entries_.size() == entries_.capacity()) entries_.reserve(2 * entries_.size() + 8);
   const auto place = numbers_.emplace(name, number).first;
-  entries_.emplace_back(place->first).needed = needed_.count(name) != 0;  // does not throw: there is room for it
+  Entry& entry = entries_.emplace_back(place->first);  // does not throw: there is room for it
+  entry.needed = needed_.count(name) != 0;
+  entry.free = free_.count(name) != 0;
   ++revision_;
   return number;
 }
@@ -118,6 +120,13 @@ void FrameTable::need(const std::vector<std::string>& names) {
   placed_.needed = parents_.needed = 0;
   for (Entry& entry : entries_) entry.needed = false;
   for (const std::string& name : needed_) setNeeded(find(name));
+}
+
+bool FrameTable::setFree(std::set<std::string, std::less<>> names) {
+  if (names == free_) return false;
+  free_.swap(names);
+  for (Entry& entry : entries_) entry.free = free_.count(*entry.name) != 0;
+  return true;
 }
 
 const std::string& FrameTable::parentName(std::uint32_t frame) const {

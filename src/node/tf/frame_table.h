@@ -45,6 +45,10 @@ class FrameTable {
   /// Sets which frames bodies need. The parents of a needed frame are needed too, also those that it gets later. Call
   /// this when bodies were added or removed.
   void need(const std::vector<std::string>& names);
+  /// Sets the names of the free frames: those that a planar or floating joint moves.
+  /// @returns whether this is a change
+  bool setFree(std::set<std::string, std::less<>> names);
+  bool isFree(std::uint32_t frame) const { return entries_[frame].free; }
   /// Whether bodies need a frame, or a frame below it.
   bool isNeeded(std::string_view name) const { return isNeeded(find(name), name); }
 
@@ -77,7 +81,8 @@ class FrameTable {
     bool placed = false;         // whether a transform has placed this frame in a parent
     bool is_parent = false;
     bool needed = false;
-    std::array<char, 41> begin = {};  // first characters of the name; most names fit
+    bool free = false;
+    std::array<char, 40> begin = {};  // first characters of the name; most names fit
   };
   static_assert(sizeof(Entry) == 64);
   /// How many frames there are of a kind.
@@ -103,6 +108,7 @@ class FrameTable {
   std::map<std::string, std::uint32_t, std::less<>> numbers_;
   Count placed_, parents_;
   std::set<std::string, std::less<>> needed_;  // names that need() received; some of them may have no number yet
+  std::set<std::string, std::less<>> free_;    // names of free frames; some of them may have no number yet
   std::uint64_t revision_ = 0;
   std::uint32_t last_ = kNone;  // the frame that admit() or again() returned last
 };

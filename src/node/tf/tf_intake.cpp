@@ -93,6 +93,10 @@ void TfIntake::need(const std::vector<std::string>& names, const Moment& now) {
   takeLate(now);
 }
 
+void TfIntake::setFree(std::set<std::string, std::less<>> names) {
+  if (store_.setFree(std::move(names))) ++static_revision_;
+}
+
 /// Keeps a static transform that found no room. It is sent only once, but a body may need it later.
 void TfIntake::keepLate(const TransformView& transform, const std::string& publisher) {
   const std::string child(viewWithoutSlash(transform.child)), parent(viewWithoutSlash(transform.parent));

@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,6 +65,8 @@ class TfIntake {
             const Moment& now);
   /// Sets which frames bodies need. There is room for them even if there are too many other frames.
   void need(const std::vector<std::string>& names, const Moment& now);
+  /// Sets the names of the free frames: those that a planar or floating joint moves. Their static poses are not used.
+  void setFree(std::set<std::string, std::less<>> names);
   /// Drops the stamps and periods of all frames of /tf. Call this after a simulated clock jumped back. Static
   /// transforms stay.
   void forgetMoving();
@@ -91,9 +94,11 @@ class TfIntake {
   const Frame& frame(std::uint32_t number) const { return frames_[number]; }
   /// Returns why the newest transform of a frame was refused. Null: it was not.
   const Refusal* refusal(std::uint32_t number) const;
+  /// Does the same as TransformStore::isFreeButStatic().
+  bool isFreeButStatic(std::uint32_t number) const { return store_.isFreeButStatic(number); }
   /// Returns the stored poses of a frame in its parent.
   const FrameHistory& history(std::uint32_t number) const { return store_.history(number); }
-  /// Returns a number that increases whenever a static frame gets another pose.
+  /// Returns a number that increases whenever a static frame gets another pose, or one that is used or not.
   std::uint64_t staticRevision() const { return static_revision_; }
   /// Returns the names of the frames that are published on both /tf and /tf_static, sorted.
   const std::vector<std::string>& conflicts() const { return conflicts_; }

@@ -19,6 +19,10 @@ void extend(ChainState& state, const TfIntake& intake, std::uint32_t number, boo
   if (frame.refused && (upwards || state.refused == nullptr)) state.refused = intake.refusal(number);
   if (frame.hasConflict()) state.conflict = true;
   if (frame.claimed && intake.isContested(number, reading)) state.contested = number;
+  if (intake.isFreeButStatic(number)) {
+    state.connected = false;
+    if (state.free_but_static == TfIntake::kNone) state.free_but_static = number;
+  }
   const FrameHistory& history = intake.history(number);
   if (!history.moves()) return;
   const Time stamp = history.newest().stamp;

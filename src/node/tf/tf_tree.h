@@ -31,6 +31,9 @@ struct ChainState {
   /// TfIntake changes.
   const Refusal* refused = nullptr;
   std::uint32_t contested = TfIntake::kNone;  ///< number of a contested frame of the chain, or kNone
+  /// Number of the first frame of the chain whose static pose is not used, or kNone: see TfIntake::setFree(). Then
+  /// the chain is not connected.
+  std::uint32_t free_but_static = TfIntake::kNone;
 
   /// Converts a time to the AgeClock: at the returned reading, the chain's pose at `time` had the age 0. The reading is
   /// never later than the arrival of the data. Call this only if the chain moves.

@@ -50,12 +50,16 @@ class Look {
 
   /// Returns the chain at one time, through the parents that the frames had at that time.
   Chain chainAt(Time time) const {
-    return chain([&](std::uint32_t frame) { return reading_.history(frame).sampleAt(time); });
+    return chain([&](std::uint32_t frame) -> std::optional<PoseSample> {
+      if (reading_.isFreeButStatic(frame)) return std::nullopt;
+      return reading_.history(frame).sampleAt(time);
+    });
   }
 
   /// Returns the chain through the newest parents. Its poses are of different times.
   Chain newestChain() const {
     return chain([&](std::uint32_t frame) -> std::optional<PoseSample> {
+      if (reading_.isFreeButStatic(frame)) return std::nullopt;
       const FrameHistory& history = reading_.history(frame);
       const PoseSample& newest = history.newest();
       if (newest.parent == FrameTable::kNone || (history.moves() && newest.stamp.count() == 0)) return std::nullopt;
@@ -82,7 +86,13 @@ class Look {
   std::string whyNot(Time time, const std::string& target, const std::string& frame) const {
     if (frame_ == FrameTable::kNone) return "frame '" + frame + "' was never published";
     if (target_ == FrameTable::kNone) return "frame '" + target + "' was never published";
-    if (!newestChain().connected) return "there is no chain of transforms between them now";
+    const Chain newest = newestChain();
+    for (const std::uint32_t end : {lastOf(newest.from_frame, frame_), lastOf(newest.from_target, target_)}) {
+      const bool has_parent = reading_.table().parent(end) != FrameTable::kNone;
+      if (!newest.connected && has_parent && reading_.isFreeButStatic(end))
+        return freeButStatic(reading_.table().name(end));
+    }
+    if (!newest.connected) return "there is no chain of transforms between them now";
     const Chain known = chainAt(time);
     for (const std::uint32_t end : {lastOf(known.from_frame, frame_), lastOf(known.from_target, target_)}) {
       const FrameHistory& history = reading_.history(end);
@@ -152,6 +162,13 @@ class Look {
 };
 
 }  // namespace
+
+std::string freeButStatic(const std::string& frame) {
+  return "a planar or floating joint moves frame '" + printable(frame) +
+         "', but the frame is only on /tf_static, where robot_state_publisher sends a planar joint as if it were "
+         "fixed; "
+         "publish the frame's pose on /tf (odometry, localization), or make the joint fixed in the URDF";
+}
 
 bool TransformLookup::isConnected(const std::string& target, const std::string& frame) const {
   return frame == target || Look(store_, target, frame).newestChain().connected;

@@ -13,6 +13,9 @@
 
 namespace hgrid {
 
+/// Says why the pose of a frame is not used, for TransformStore::isFreeButStatic().
+std::string freeButStatic(const std::string& frame);
+
 /// Looks up the pose of one tf frame in another. Any thread may use this class.
 ///
 /// Ticks do not use it. They use FramePoses, which computes the poses of thousands of frames at one time.

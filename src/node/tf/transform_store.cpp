@@ -36,6 +36,11 @@ void TransformStore::need(const std::vector<std::string>& names) {
   table_.need(names);
 }
 
+bool TransformStore::setFree(std::set<std::string, std::less<>> names) {
+  const Writing writing(*this);
+  return table_.setFree(std::move(names));
+}
+
 void TransformStore::fix(std::uint32_t frame, std::string_view parent, const FramePose& parent_from_frame) {
   const Writing writing(*this);
   histories_[frame].fix({Time(0), numberOfParent(frame, parent), true, parent_from_frame});

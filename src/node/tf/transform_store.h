@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -47,6 +48,11 @@ class TransformStore {
   void prefetch(std::uint32_t frame) const;
   /// Does the same as FrameTable::need().
   void need(const std::vector<std::string>& names);
+  /// Does the same as FrameTable::setFree().
+  bool setFree(std::set<std::string, std::less<>> names);
+  /// Whether a free frame has only a static pose. Nobody may use this pose, because it says nothing about the joint:
+  /// robot_state_publisher sends a planar joint as if it were fixed.
+  bool isFreeButStatic(std::uint32_t frame) const { return table_.isFree(frame) && !histories_[frame].moves(); }
   /// Makes the frame static at this pose in its parent.
   void fix(std::uint32_t frame, std::string_view parent, const FramePose& parent_from_frame);
   /// Stores the newest sample of a frame that moves.
@@ -100,6 +106,7 @@ class TransformStore {
     explicit Reading(const TransformStore& store) : store_(store), lock_(store.mutex_) {}
     const FrameTable& table() const { return store_.table_; }
     const FrameHistory& history(std::uint32_t frame) const { return store_.histories_[frame]; }
+    bool isFreeButStatic(std::uint32_t frame) const { return store_.isFreeButStatic(frame); }
 
    private:
     const TransformStore& store_;

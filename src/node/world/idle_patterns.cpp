@@ -21,7 +21,9 @@ class Check {
 
   void operator()(const std::string& parameter, const std::string& pattern) {
     if (mayMatchLater(pattern) || !matchesNone(pattern, bodies_)) return;
-    warnings_.push_back(parameter + ": '" + printable(pattern) + "' matches no body");
+    const bool has_other = pattern.find_first_of("?[") != std::string::npos;
+    warnings_.push_back(parameter + ": '" + printable(pattern) + "' matches no body" +
+                        (has_other ? "; only * stands for other characters" : ""));
   }
   void operator()(const std::string& parameter, const std::vector<PatternValue>& values) {
     for (const PatternValue& value : values) (*this)(parameter, value.pattern);
@@ -45,6 +47,27 @@ class Check {
 };
 
 }  // namespace
+
+std::vector<std::string> idleMargins(const Params& params) {
+  std::vector<std::string> warnings;
+  for (const PatternValue& margin : params.margins) {
+    if (margin.value >= params.margin) continue;
+    warnings.push_back("~margins: '" + printable(margin.pattern) + "' has " + text(margin.value) +
+                       " m, but ~margin is " + text(params.margin) +
+                       " m for all bodies; only ~pair_margins can be smaller");
+  }
+  const std::vector<PairMargin>& pairs = params.pair_margins;
+  for (auto entry = pairs.begin(); entry != pairs.end(); ++entry) {
+    const bool is_hidden = std::any_of(entry + 1, pairs.end(), [&](const PairMargin& later) {
+      return (coversGlob(later.first, entry->first) && coversGlob(later.second, entry->second)) ||
+             (coversGlob(later.first, entry->second) && coversGlob(later.second, entry->first));
+    });
+    if (!is_hidden) continue;
+    warnings.push_back("~pair_margins: '" + printable(entry->first) + "' with '" + printable(entry->second) +
+                       "' has no effect, because a later entry matches the same pairs; put the general one first");
+  }
+  return warnings;
+}
 
 std::vector<std::string> idlePatterns(const Params& params, const std::vector<std::string>& bodies,
                                       const std::vector<std::string>& without_collision) {

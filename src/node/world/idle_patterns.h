@@ -17,4 +17,7 @@ namespace hgrid {
 std::vector<std::string> idlePatterns(const Params& params, const std::vector<std::string>& bodies,
                                       const std::vector<std::string>& without_collision);
 
+/// Returns a warning for each margin of ~margins and ~pair_margins that has no effect.
+std::vector<std::string> idleMargins(const Params& params);
+
 }  // namespace hgrid

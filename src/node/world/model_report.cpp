@@ -52,6 +52,7 @@ std::shared_ptr<const ModelReport> makeModelReport(const RobotEntries& robots, c
     std::vector<std::string> without_collision;
     for (const auto& robot : robots) append(without_collision, robot.second.model->without_collision);
     append(report->warnings, idlePatterns(params, bodyNames(robots, params), without_collision));
+    append(report->warnings, idleMargins(params));
   }
   return report;
 }

@@ -75,7 +75,7 @@ void MoverPoses::updateOne(std::size_t index, bool clock_frozen, Tick& tick) {
     tick.missing_frames.push_back(frames_.unknownFrame(index));
   }
   mover.settled = is_static && !mover.trouble;
-  setState(mover, judge(mover, chain, clock_frozen));
+  setState(mover, judge(mover, chain, clock_frozen), chain.connected ? chain.period : 0.0);
   appendTroubles(mover, tick);
 }
 
@@ -97,7 +97,7 @@ void MoverPoses::updateGivenUp(Mover& mover, Tick& tick) {
     mover.pose.unsettle(frames_.tickTimeBefore(), frames_.readingBefore());
     setStamp(mover);
   }
-  setState(mover, Freshness::lost);
+  setState(mover, Freshness::lost, 0.0);
   appendTroubles(mover, tick);
 }
 
@@ -136,7 +136,7 @@ Freshness MoverPoses::judge(const Mover& mover, const ChainState& chain, bool cl
   return judgePose(mover.pose, circumstances, limits_);
 }
 
-void MoverPoses::setState(const Mover& mover, Freshness state) {
+void MoverPoses::setState(const Mover& mover, Freshness state, double period) {
   for (std::size_t i = mover.first; i < mover.last; ++i) {
     const BodyId body = movers_.members()[i].body;
     std::uint32_t cohort = 0;  // settled bodies are always in cohort 0
@@ -144,7 +144,7 @@ void MoverPoses::setState(const Mover& mover, Freshness state) {
       const Time stamp = scene_.poseOf(body).stamp;
       cohort = cohorts_.emplace(stamp, static_cast<std::uint32_t>(cohorts_.size() + 1)).first->second;
     }
-    scene_.setState(body, state, mover.pose.age(frames_.reading()), cohort);
+    scene_.setState(body, state, mover.pose.age(frames_.reading()), cohort, period);
   }
 }
 

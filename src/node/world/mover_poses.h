@@ -43,7 +43,7 @@ class MoverPoses {
   void placeOnce(std::size_t index);
   void updateGivenUp(Mover& mover, Tick& tick);
   void place(Mover& mover, const FramePoses::Found& found, bool moves);
-  void setState(const Mover& mover, Freshness state);
+  void setState(const Mover& mover, Freshness state, double period);
   void setStamp(const Mover& mover);
   void unsettleAll();
   /// Whether nothing but a new plan can change the mover: it stands at the world frame, and nothing is wrong with it.

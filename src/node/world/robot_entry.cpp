@@ -20,4 +20,12 @@ std::vector<std::string> linksNamed(const RobotEntries& robots, const std::strin
   return links;
 }
 
+std::set<std::string, std::less<>> freeFrames(const RobotEntries& robots) {
+  std::set<std::string, std::less<>> frames;
+  for (const auto& [name, robot] : robots) {
+    if (robot.inWorld()) frames.insert(robot.model->free_frames.begin(), robot.model->free_frames.end());
+  }
+  return frames;
+}
+
 }  // namespace hgrid

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "node/sources/robot_source.h"
@@ -26,6 +27,8 @@ using RobotEntries = std::map<std::string, RobotEntry>;
 
 /// Returns the model of the robot that has a link of this name, "robot/link"; null if no robot in the world has it.
 const LoadedRobot* findLink(const RobotEntries& robots, const std::string& link);
+/// Returns the frames of the links that planar and floating joints move, of all robots in the world.
+std::set<std::string, std::less<>> freeFrames(const RobotEntries& robots);
 /// Returns the full names, "robot/link", of the links of all robots in the world that have this name without the robot.
 std::vector<std::string> linksNamed(const RobotEntries& robots, const std::string& name);
 

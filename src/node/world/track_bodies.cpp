@@ -120,7 +120,7 @@ bool TrackBodies::updateOne(const Track& track, BodyId body, Time time, const Mo
     state = Freshness::invalid;
     refused = refusal;
   }
-  scene_.setState(body, state, age);
+  scene_.setState(body, state, age, 0, track.period);
   if (state != Freshness::fresh) {
     tick.troubles.push_back({scene_.body(body).name, tick.world_frame, state, age, track.time.stamp,
                              refused ? refused->code() : Code::tf_timeout,

@@ -172,16 +172,18 @@ void World::setDataFrames(const SourceId& source, const std::vector<std::string>
   needed_revision_.reset();
 }
 
-/// Tells the transforms which frames have priority, if the bodies have changed.
+/// Tells the transforms which frames have priority, and which are free, if the bodies or the robots have changed.
 void World::needFrames(const Moment& now) {
-  if (needed_revision_ == movers_.revision()) return;
+  const std::pair<std::uint64_t, std::uint64_t> revision(movers_.revision(), robots_.models().revision());
+  if (needed_revision_ == revision) return;
   std::vector<std::string> frames{world_frame_};
   for (const Mover& mover : movers_.all()) {
     if (mover.frame != frames.back()) frames.push_back(mover.frame);  // successive obstacles often have the same frame
   }
   for (const auto& data : data_frames_) frames.insert(frames.end(), data.second.begin(), data.second.end());
   transforms_.need(frames, now);
-  needed_revision_ = movers_.revision();
+  transforms_.setFree(freeFrames(robots_.models().all()));
+  needed_revision_ = revision;
 }
 
 void World::setMissing(const SourceId& source, const std::string& sentence) {
@@ -319,7 +321,8 @@ std::shared_ptr<Tick> World::tick(const Moment& now) {
   tracks_.update(time, now, clock_.frozen(), *tick, gaps);
   sortWorstFirst(tick->troubles);
   if (!tick->troubles.empty() && tick->troubles.front().state == Freshness::unplaced) {
-    tick->unplaced = whyUnplaced(movers_.all(), transforms_.table(), world_frame_, world_frame_ == params_.world_frame);
+    tick->unplaced = whyUnplaced(movers_.all(), robots_.models().all(), transforms_.table(), world_frame_,
+                                 world_frame_ == params_.world_frame);
   }
   sortUnique(tick->missing_frames);
   tick->poses_time = std::chrono::steady_clock::now() - begin;

@@ -154,7 +154,8 @@ class World {
   RulesInForce rules_;
   MatrixRules matrix_;
   std::map<SourceId, std::vector<std::string>> data_frames_;  // by cloud or tracker
-  std::optional<std::uint64_t> needed_revision_;  // of the movers whose frames are needed; nullopt: not up to date
+  /// Revisions of the movers and the models whose frames the transforms know; nullopt: not up to date.
+  std::optional<std::pair<std::uint64_t, std::uint64_t>> needed_revision_;
   std::string world_frame_;
   std::uint64_t epoch_;
 };

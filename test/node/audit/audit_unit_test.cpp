@@ -59,6 +59,15 @@ TEST(Audit, ComparesAllPosesPairsAndQueriesOfASmallWorld) {
   EXPECT_GT(world.world().snapshot().pairs().size(), 5u) << "the world has too few pairs for this test";
 }
 
+/// Claim: an audit does not use a static pose of a frame that a planar or floating joint moves.
+TEST(Audit, FindsABodyThatTheStaticPoseOfAFreeFramePlaces) {
+  AuditedWorld world(2);
+  world.send(world.randomTransform("base", "slow", 0.0), true);
+  begin(world);
+  expectTells(foundWithinTen(world, [](AuditCase& audited) { audited.free_frames = {"slow"}; }),
+              "'obstacle/slow' has a pose");
+}
+
 /// Claim: an audit uses the parameters of the tick that it audits, also if they have changed since then.
 TEST(Audit, FollowsParametersThatChange) {
   Params params = AuditedWorld::defaults();

@@ -158,8 +158,9 @@ TEST_F(ExplainPair, WhatIsStaleSaysHowOldAndWhatThatDoes) {
   EXPECT_GT(response.age_first, 0.6);
   EXPECT_DOUBLE_EQ(response.growth, 0.05);
   EXPECT_DOUBLE_EQ(response.margin, 0.35);
-  EXPECT_TRUE(says(response.explanation,
-                   "The margin is 0.05 m larger than usual because data is old. robot/d is STALE: its pose is"));
+  EXPECT_TRUE(says(
+      response.explanation,
+      "The margin is 0.05 m larger than usual because data is old or comes rarely. robot/d is STALE: its pose is"));
   transforms_->stream("base", "d", at(0));
   node_->waitForStatus("d is FRESH", [](const msg::Status& status) { return entryOf(status, "robot/d") == nullptr; });
 }

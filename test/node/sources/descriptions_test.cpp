@@ -73,6 +73,26 @@ TEST(Description, ThatIsNoRobotIsRefusedWithItsPlace) {
   }
 }
 
+TEST(Description, ALinkOnAPlanarOrFloatingJointIsNotPlacedByAStaticTransform) {
+  TransformSource transforms;
+  transforms.fix({stamped("base", "plate", at(0)), stamped("base", "drone", at(0)), stamped("base", "arm", at(0))});
+  NodeSetup setup = besidePost();
+  std::string content = link("base");
+  for (const auto& [name, type] :
+       std::map<std::string, std::string>{{"plate", "planar"}, {"drone", "floating"}, {"arm", "continuous"}}) {
+    content += link(name, sphereOf(0.1)) + joint("base", name, type);
+  }
+  setup.beside["robot_description"] = urdf(content);
+  NodeUnderTest node(setup);
+  const auto status = node.waitForStatus("the arm is placed, the others are not", [](const msg::Status& s) {
+    return stateOf(s, "robot/plate") == msg::BodyState::UNPLACED && s.body_count == 4;
+  });
+  EXPECT_EQ(stateOf(*status, "robot/drone"), msg::BodyState::UNPLACED);
+  EXPECT_EQ(stateOf(*status, "robot/arm"), msg::BodyState::FRESH) << "a joint that is locked";
+  EXPECT_TRUE(says(entryOf(*status, "robot/plate")->code.text, "a planar or floating joint moves frame 'plate'"));
+  EXPECT_EQ(node.sphere(-9, 0, 0, 0.05).answer.verdict, msg::Verdict::UNKNOWN);
+}
+
 TEST(Reload, TakesTheNewModelAndKeepsTheOldOneWhereThatFails) {
   TransformSource transforms;
   transforms.fix({stamped("base", "a", at(0)), stamped("base", "b", at(0.25))});

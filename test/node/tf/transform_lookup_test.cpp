@@ -50,6 +50,22 @@ class TransformLookupTest : public ::testing::Test {
   TransformLookup lookup_{store_};
 };
 
+TEST_F(TransformLookupTest, DoesNotUseTheStaticPoseOfAFreeFrame) {
+  EXPECT_TRUE(store_.setFree({"arm", "tool", "later"}));
+  EXPECT_FALSE(store_.setFree({"arm", "later", "tool"}));
+  store_.fix(store_.admit("arm", "later"), "arm", at(0.5));
+  EXPECT_TRUE(lookup_.at("base", "arm", s(11))) << "it is on /tf";
+  for (const std::string frame : {"tool", "later"}) {
+    EXPECT_TRUE(says(whyNot("base", frame, 11), "a planar or floating joint moves frame '" + frame + "'"));
+    EXPECT_TRUE(says(whyNot(frame, "base", 11), "the frame is only on /tf_static"));
+    EXPECT_FALSE(lookup_.isConnected("base", frame));
+    EXPECT_FALSE(lookup_.newest("base", frame));
+  }
+  EXPECT_TRUE(store_.setFree({"arm"}));
+  EXPECT_TRUE(lookup_.isConnected("base", "tool"));
+  EXPECT_TRUE(lookup_.isConnected("base", "later"));
+}
+
 TEST_F(TransformLookupTest, KnowsAPoseBetweenTwoTransformsAndNotOutside) {
   EXPECT_DOUBLE_EQ(lookup_.at("base", "tool", s(11))->translation.x(), 2.5);
   EXPECT_DOUBLE_EQ(lookup_.at("tool", "base", s(11))->translation.x(), -2.5);

@@ -20,6 +20,25 @@ TEST(IdlePatterns, AreNamedWithTheirParameter) {
             (Warnings{"~margins: 'amr/*' matches no body", "~padding: 'arm/flange' matches no body"}));
 }
 
+TEST(IdlePatterns, WithAQuestionMarkMayBeMeantAsGlobs) {
+  Params params;
+  params.padding = {{"arm/han?", 0.1}};
+  EXPECT_EQ(idlePatterns(params, kBodies, kBare),
+            (Warnings{"~padding: 'arm/han?' matches no body; only * stands for other characters"}));
+}
+
+TEST(IdleMargins, AreBelowTheMarginOfAllBodiesOrHiddenByALaterEntry) {
+  Params params;
+  params.margin = 0.1;
+  params.margins = {{"arm/*", 0.1}, {"arm/hand", 0.05}, {"obstacle/*", 0.3}};
+  params.pair_margins = {{"arm/hand", "obstacle/*", 0.01}, {"arm/*", "arm/*", 0.02}, {"obstacle/*", "arm/*", 0.05}};
+  EXPECT_EQ(idleMargins(params),
+            (Warnings{"~margins: 'arm/hand' has 0.05 m, but ~margin is 0.1 m for all bodies; only ~pair_margins can be "
+                      "smaller",
+                      "~pair_margins: 'arm/hand' with 'obstacle/*' has no effect, because a later entry matches the "
+                      "same pairs; put the general one first"}));
+}
+
 TEST(IdlePatterns, ForMapsAreNotReported) {
   Params params;
   params.margins = {{"map/hall", 0.1}, {"map/*", 0.1}, {"map*", 0.1}};

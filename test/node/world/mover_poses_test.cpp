@@ -8,6 +8,7 @@
 
 #include "test/node/support/simulated_world.h"
 #include "test/support/bodies.h"
+#include "test/support/refusals.h"
 
 namespace hgrid {
 namespace test {
@@ -88,6 +89,74 @@ TEST(MoverPoses, OnlyBodiesWithPosesOfOneTimeAreOneCohort) {
   }
   EXPECT_EQ(world.pose("a").cohort, world.pose("b").cohort);
   EXPECT_NE(world.pose("a").cohort, world.pose("late").cohort);
+}
+
+/// The growth of the margins reaches the pair only in the second half of each second.
+TEST(MoverPoses, ASourceOfOneHertzDoesNotEndItsPairsWithEachPose) {
+  Params params;
+  params.growth_cap = 1.0;
+  params.default_max_speed = 0.8;
+  SimulatedWorld world({"slow", "post"}, Clock::wall, params);
+  world.fix("/map", "base", "post", 0.8);  // the boxes are 0.6 m apart
+  int ticks_without_pair = 0;
+  for (int tick = 0; tick < 500; ++tick) {
+    if (tick % 50 == 0) world.sendNow("/tracker", "base", "slow", 0.0);
+    world.wait(0.02);
+    world.tick();
+    if (tick < 150) continue;  // the node knows the period
+    EXPECT_EQ(world.pose("slow").state, Freshness::fresh);
+    ticks_without_pair += world.near("slow", "post") ? 0 : 1;
+  }
+  EXPECT_EQ(ticks_without_pair, 0);
+}
+
+/// robot_state_publisher sends a planar joint on /tf_static, as if it were fixed. So where its link is, is not known.
+TEST(MoverPoses, TheStaticPoseOfAFrameThatAPlanarJointMovesPlacesNothing) {
+  SimulatedWorld world({"tool", "bolted"});
+  LoadedRobot robot = twins();
+  robot.free_frames = {"hand"};
+  world.world().setRobot(std::make_shared<const LoadedRobot>(robot));
+  world.fix("/robot_state_publisher", "base", "hand", 1.0);
+  world.fix("/robot_state_publisher", "hand", "tool", 0.5);
+  world.fix("/robot_state_publisher", "base", "bolted", 3.0);
+  world.wait(0.02);
+  world.tick();
+  const auto stateOf = [&](const char* body) {
+    return world.snapshot().poses().at(world.snapshot().structure().find(body)).state;
+  };
+  EXPECT_EQ(stateOf("twins/near"), Freshness::unplaced);
+  EXPECT_EQ(world.pose("tool").state, Freshness::unplaced) << "an obstacle that follows the frame";
+  EXPECT_EQ(world.pose("bolted").state, Freshness::fresh) << "no such joint moves it";
+  EXPECT_EQ(world.sphere(-5.0, 0.1), Verdict::unknown);
+  ASSERT_EQ(world.last().unplaced.size(), 1u);
+  EXPECT_TRUE(says(world.last().unplaced[0],
+                   "UNPLACED robot 'twins': 2 of its 2 links never had a pose: a planar or "
+                   "floating joint moves frame 'hand', but the frame is only on /tf_static"));
+
+  for (int i = 0; i < 3; ++i) {
+    world.wait(0.02);
+    world.sendNow("/odometry", "base", "hand", 2.0);
+    world.tick();
+  }
+  EXPECT_EQ(stateOf("twins/near"), Freshness::fresh) << "odometry tells where it is";
+  EXPECT_NEAR(world.x("tool"), 2.5, 1e-9);
+  EXPECT_TRUE(world.last().unplaced.empty());
+}
+
+/// An obstacle stands at a static frame. Then a robot comes, and one of its planar joints moves this frame.
+TEST(MoverPoses, AStaticPoseIsNotUsedAnyMoreOnceARobotSaysThatItsFrameMoves) {
+  SimulatedWorld world({"hand"});
+  world.fix("/robot_state_publisher", "base", "hand", 1.0);
+  world.wait(0.02);
+  world.tick();
+  EXPECT_EQ(world.pose("hand").state, Freshness::fresh);
+  LoadedRobot robot = twins();
+  robot.free_frames = {"hand"};
+  world.world().setRobot(std::make_shared<const LoadedRobot>(robot));
+  world.wait(0.02);
+  world.tick();
+  EXPECT_EQ(world.pose("hand").state, Freshness::invalid);
+  EXPECT_NEAR(world.x("hand"), 1.0, 1e-9) << "the last pose is kept";
 }
 
 }  // namespace

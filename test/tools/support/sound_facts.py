@@ -9,7 +9,9 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools"))
 
 from hgrid_doctor.description import parse_srdf, parse_urdf  # noqa: E402  (the path comes first)
-from hgrid_doctor.facts import Environment, Facts, Graph, NodeFacts, RobotFacts, TfStream, TopicFacts  # noqa: E402
+from hgrid_doctor.facts import (  # noqa: E402
+    Environment, Facts, Graph, JointValue, NodeFacts, RobotFacts, TfStream, TopicFacts,
+)
 from hgrid_doctor.settings import RobotSettings, Settings  # noqa: E402
 
 BOX = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
@@ -102,7 +104,7 @@ def sound():
             stream("/rsp", "elbow", "hand"),
             stream("/rsp", "hand", "tip", static=True, count=1),
         ],
-        joints={"/joint_states": {"turn", "bend"}},
+        joints={"/joint_states": {"turn": JointValue(0.0, 1), "bend": JointValue(0.0, 1)}},
         first_status=status(sequence=1),
         status=status(sequence=151),
     )

@@ -5,7 +5,20 @@ from __future__ import annotations
 
 from typing import List
 
-from hgrid_doctor.checks import clock, contests, descriptions, frames, inputs, network, node, semantics, stamps, status
+from hgrid_doctor.checks import (
+    clock,
+    contests,
+    descriptions,
+    frames,
+    inputs,
+    joint_states,
+    network,
+    node,
+    pairs,
+    semantics,
+    stamps,
+    status,
+)
 from hgrid_doctor.facts import Facts
 from hgrid_doctor.finding import Finding, Findings
 
@@ -16,9 +29,11 @@ CHECKS = (
     stamps.check,
     contests.check,
     frames.check,
+    joint_states.check,
     semantics.check,
     inputs.check,
     status.check,
+    pairs.check,
 )
 
 

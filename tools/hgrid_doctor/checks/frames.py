@@ -12,6 +12,7 @@ from hgrid_doctor.checks.joint_states import (
     check_joint_states,
     state_publishers,
 )
+from hgrid_doctor.description import Joint
 from hgrid_doctor.facts import LOST, UNPLACED, Facts, RobotFacts
 from hgrid_doctor.finding import ERROR, EVERYTHING, Findings, counted, listing
 from hgrid_doctor.fixes import (
@@ -21,7 +22,7 @@ from hgrid_doctor.fixes import (
     state_publisher_command,
     with_params,
 )
-from hgrid_doctor.frames import Tree, frame_of_group, needed_frames
+from hgrid_doctor.frames import Tree, frame_of_group, joint_state_topics, needed_frames
 
 
 def check(facts: Facts, findings: Findings):
@@ -33,7 +34,11 @@ def check(facts: Facts, findings: Findings):
     for robot in facts.robots:
         if robot.description is None or robot.description.flaw:
             continue
+        check_free_joints(facts, tree, robot, findings)
         unplaced = unplaced_frames(facts, tree, robot)
+        if findings.has("static_free_joint"):
+            fixed = {robot.settings.frame(joint.child) for joint in static_free_joints(tree, robot)}
+            unplaced = {frame: link for frame, link in unplaced.items() if not fixed & set(tree.chain(frame))}
         absent = {frame: link for frame, link in unplaced.items() if is_absent(facts, tree, robot, frame, link)}
         if absent:
             check_absent(facts, tree, robot, absent, findings, waiting)
@@ -44,6 +49,29 @@ def check(facts: Facts, findings: Findings):
         add_no_joint_states(waiting, findings)
     if apart and facts.world_frame() and not findings.has("contested_frame"):
         check_connected(facts, tree, apart, findings)
+
+
+def static_free_joints(tree: Tree, robot: RobotFacts) -> List[Joint]:
+    """Returns the planar and floating joints whose child frames are only on /tf_static. The node does not use them."""
+    joints = [joint for joint in robot.description.joints if joint.type in ("planar", "floating")]
+    streams = {joint.name: tree.of_child.get(robot.settings.frame(joint.child), []) for joint in joints}
+    return [joint for joint in joints if streams[joint.name] and all(each.static for each in streams[joint.name])]
+
+
+def check_free_joints(facts: Facts, tree: Tree, robot: RobotFacts, findings: Findings):
+    for joint in static_free_joints(tree, robot):
+        frame = robot.settings.frame(joint.child)
+        publisher = tree.of_child[frame][0].publisher
+        findings.add(
+            "static_free_joint",
+            ERROR,
+            f"Where the {joint.type} joint '{joint.name}' of robot '{robot.settings.name}' stands is unknown: its "
+            f"frame '{frame}' is only on /tf_static, from {publisher}. robot_state_publisher sends a planar joint as if it "
+            "were fixed.",
+            f"Publish the pose of '{frame}' in '{robot.settings.frame(joint.parent)}' on /tf (odometry, localization). "
+            "If the joint never moves, make it fixed in the URDF.",
+            sources_below(facts, tree, {frame}) | {robot.settings.name},
+        )
 
 
 def is_absent(facts: Facts, tree: Tree, robot: RobotFacts, frame: str, link: str) -> bool:
@@ -128,6 +156,7 @@ def check_absent(
     else:
         others = facts.alive_publishers("/tf")
         there = f"/tf comes from {listing(others)} only" if others else "nobody publishes /tf"
+        there += latched_hint(facts)
         findings.add(
             "no_state_publisher",
             ERROR,
@@ -150,6 +179,22 @@ def other_prefix(facts: Facts, tree: Tree, robot: RobotFacts, absent: Dict[str, 
                     votes[prefix] = votes.get(prefix, 0) + 1
     best = max(sorted(votes), key=votes.get, default=None)
     return best if best is not None and votes[best] * 2 > len(absent) else None
+
+
+def latched_hint(facts: Facts) -> str:
+    """Returns a possible cause of a static frame that is missing, as the end of a sentence; empty: there is none.
+
+    A StaticTransformBroadcaster in Python latches one message, that of its last call. tf2's in C++ sends all
+    transforms of its earlier calls again."""
+    latched = {each.publisher for each in facts.streams if each.static} - {
+        node for node in facts.graph.nodes() if joint_state_topics(facts, node)
+    }
+    if not latched:
+        return ""
+    return (
+        f"; {listing(sorted(latched))} on /tf_static may have sent more than it latches: a Python "
+        "StaticTransformBroadcaster keeps only its last call, so it must send all transforms in one call"
+    )
 
 
 def was_connected(facts: Facts, robots: List[str]) -> bool:
@@ -199,8 +244,7 @@ def check_connected(facts: Facts, tree: Tree, apart: Dict[str, Set[str]], findin
             "two_trees",
             ERROR,
             f"tf is in parts that nothing connects: the world frame '{world}' is below '{tree.root(world)}', {who} "
-            "below"
-            f" {listing(roots)}.",
+            f"below {listing(roots)}{latched_hint(facts)}.",
             f"Publish where the robot is: start the node that does (localization, odometry), or {publish}. Or choose "
             f"another frame: {set_frame}.",
             explained,

@@ -7,9 +7,12 @@ from dataclasses import dataclass
 from typing import Dict, List, Set
 
 from hgrid_doctor.facts import Facts, RobotFacts
-from hgrid_doctor.finding import ERROR, Findings, counted, listing
+from hgrid_doctor.finding import ERROR, WARN, Findings, counted, listing
 from hgrid_doctor.fixes import play_joints, state_publisher_command
 from hgrid_doctor.frames import joint_state_topics
+
+
+TURN_TOLERANCE, SLIDE_TOLERANCE = 0.01, 0.001  # [rad], [m]: simulations and encoders do not follow exactly
 
 
 @dataclass
@@ -54,7 +57,10 @@ def check_joint_states(facts: Facts, absent: Absent, publisher: str, findings: F
     again = f"Start it again now that {robot.key} is set: `rosnode kill {publisher}`, then {start}"
     sources = facts.alive_publishers(topic)
     wanted = {joint for link in absent.frames.values() for joint in robot.description.moving_joints_above(link)}
-    missing = sorted(wanted - facts.joints.get(topic, set()))
+    received = set(facts.joints.get(topic, {}))
+    known = robot.description.known_to_state_publisher(received)
+    missing = sorted(wanted - known)
+    late = [joint for joint in robot.description.joints if joint.name in missing and joint.mimic in known]
     if not wanted:
         findings.add(
             "state_publisher_of_other_robot",
@@ -72,6 +78,17 @@ def check_joint_states(facts: Facts, absent: Absent, publisher: str, findings: F
             f"{what}: {publisher} waits for joint states, and {listing(sources)} sent none on {topic} in "
             f"{facts.listened:.1f} s.",
             f"Look at the driver: `rostopic hz {topic}`.",
+            absent.explains,
+        )
+    elif late:
+        leader, multiplier, offset = robot.description.end_of_mimicry(late[0])
+        findings.add(
+            "mimic_of_mimic",
+            ERROR,
+            f"{what}: joint '{late[0].name}' follows '{late[0].mimic}', which itself follows a joint, and {publisher} "
+            "computes such joints once, in the order of their names (robot_state_publisher 1.15.2 does).",
+            f"In the URDF, let '{late[0].name}' follow '{leader}', with multiplier {multiplier:g} and offset "
+            f"{offset:g}.",
             absent.explains,
         )
     elif missing:
@@ -92,6 +109,38 @@ def check_joint_states(facts: Facts, absent: Absent, publisher: str, findings: F
             f"{again}.",
             absent.explains,
         )
+
+
+def check(facts: Facts, findings: Findings):
+    """Compares joints that follow others with the joint states, if these hold both."""
+    for robot in facts.robots:
+        if robot.description is None or robot.description.flaw:
+            continue
+        for publisher in sorted(state_publishers(facts, robot)):
+            for topic in sorted(joint_state_topics(facts, publisher)):
+                check_mimics(facts, robot, topic, findings)
+
+
+def check_mimics(facts: Facts, robot: RobotFacts, topic: str, findings: Findings):
+    joints = facts.joints.get(topic, {})
+    for joint in robot.description.joints:
+        own, leader = joints.get(joint.name), joints.get(joint.mimic)
+        if own is None or leader is None or own.message != leader.message:
+            continue
+        rule = joint.multiplier * leader.position + joint.offset
+        tolerance = SLIDE_TOLERANCE if joint.type == "prismatic" else TURN_TOLERANCE
+        if not abs(own.position - rule) > tolerance:  # also if one of them is NaN
+            continue
+        findings.add(
+            "mimic_differs",
+            WARN,
+            f"Joint '{joint.name}' of robot '{robot.settings.name}' is at {own.position:.4g} on {topic}, but by the "
+            f"URDF it follows '{joint.mimic}' and would be at {rule:.4g}: tf follows the message, states that are checked "
+            "follow the URDF.",
+            f"Leave '{joint.name}' out of the joint states, so that robot_state_publisher computes it, or correct its "
+            "<mimic> in the URDF.",
+        )
+        return
 
 
 def add_no_joint_states(waiting: List[Waiting], findings: Findings):

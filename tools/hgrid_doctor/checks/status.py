@@ -9,8 +9,10 @@ from typing import Dict
 from hgrid_doctor.facts import STALE, STATES, Facts
 from hgrid_doctor.finding import ERROR, EVERYTHING, WARN, Findings, counted
 from hgrid_doctor.fixes import COMPARE_CLOCKS, log_command, publish_frame, reload_command, with_params
+from hgrid_doctor.frames import joint_state_topics
 
 LATE_SHARE = 0.1  # fraction of the ticks that may be late
+MOST_DROPPED = 1.5  # joint states per transform from which on a robot_state_publisher counts as too slow
 
 POSES_FRAME = "~poses/"  # beginning of the frames of obstacles that messages on ~poses move
 FRAME = re.compile(r"frame '([^']+)'")  # in a reason: the frame that has no pose, or whose pose is old
@@ -54,10 +56,28 @@ def check_sources(facts: Facts, findings: Findings):
             findings.add(
                 "source_stale",
                 WARN,
-                f"Poses of {source.name} are {STATES[source.state]}: the oldest is {source.age:.2f} s old.",
+                f"Poses of {source.name} are {STATES[source.state]}: the oldest is {source.age:.2f} s old"
+                f"{slow_state_publisher(facts)}.",
                 "See which publisher is slow: `rosrun hgrid_proximity doctor -v`; a slow one may need a larger "
                 "~stale_after.",
             )
+
+
+def slow_state_publisher(facts: Facts) -> str:
+    """Returns a possible cause of old poses, as the end of a sentence; empty: there is none.
+
+    robot_state_publisher drops joint states that arrive less than 1 / ~publish_frequency after the last ones that it
+    sent on. So of 60 messages a second it sends every second one if ~publish_frequency is 50 Hz."""
+    for publisher in sorted({stream.publisher for stream in facts.streams if not stream.static}):
+        sent = max(stream.count for stream in facts.streams if stream.publisher == publisher and not stream.static)
+        for topic in sorted(joint_state_topics(facts, publisher)):
+            received = facts.topic(topic).total()
+            if received > MOST_DROPPED * sent:
+                return (
+                    f"; {publisher} sends only {sent / facts.listened:.0f} transforms a second of the "
+                    f"{received / facts.listened:.0f} on {topic}: raise its ~publish_frequency (50 Hz by default)"
+                )
+    return ""
 
 
 def fix_of(facts: Facts, source: str, reason: str) -> str:

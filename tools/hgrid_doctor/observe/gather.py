@@ -13,6 +13,7 @@ from hgrid_doctor.observe.bounded import call, call_all
 from hgrid_doctor.observe.files import file_error, mesh_error
 from hgrid_doctor.observe.graph import Api, ask_nodes, optional, read_environment, read_graph
 from hgrid_doctor.observe.listener import Listener
+from hgrid_doctor.observe.pairs import read_pairs
 from hgrid_doctor.settings import absolute, read_settings
 
 DEFAULT_NODE = "/proximity"
@@ -42,6 +43,7 @@ def gather(node: str, timeout: float, listen: float) -> Facts:
     facts.forget_robots_that_left()
     if facts.host:
         facts.pid_after = ask_nodes(uri, [facts.host], timeout)[facts.host].pid
+        read_pairs(facts, master, timeout)
     read_files(facts, timeout)
     return facts
 

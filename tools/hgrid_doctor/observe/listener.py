@@ -3,6 +3,7 @@
 """Listens to many topics in parallel for some time, and stores what the facts need."""
 from __future__ import annotations
 
+import itertools
 import threading
 import time
 from typing import Callable, Dict, List, Tuple
@@ -11,7 +12,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
-from hgrid_doctor.facts import Facts, TfStream, TopicFacts
+from hgrid_doctor.facts import Facts, JointValue, TfStream, TopicFacts
 from hgrid_doctor.observe.bounded import sentence_of
 from hgrid_doctor.observe.connection import Connection, header_frame
 
@@ -43,8 +44,15 @@ class Listener:
         self._start(topic, TFMessage, lambda publisher, message: self._take_transforms(publisher, message, static))
 
     def joint_states(self, topic: str):
-        names = self._facts.joints.setdefault(topic, set())
-        self._start(topic, JointState, lambda _, message: names.update(message.name))
+        joints = self._facts.joints.setdefault(topic, {})
+        numbers = itertools.count()
+
+        def take(_, message):
+            number = next(numbers)
+            for joint, position in itertools.zip_longest(message.name, message.position[: len(message.name)]):
+                joints[joint] = JointValue(float("nan") if position is None else position, number)
+
+        self._start(topic, JointState, take)
 
     def status(self, topic: str, host: str, kind):
         """@param kind  the message class of ~status"""
