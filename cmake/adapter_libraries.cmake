@@ -2,13 +2,11 @@
 #
 #   HGRID_ADAPTER_INCLUDE_DIRS   include folders of all these libraries and of Eigen
 #   HGRID_ADAPTER_LIBRARIES      urdfdom, tinyxml2, FCL and OctoMap: the libraries that HGRID_ADAPTER_SOURCES link
-#   HGRID_MESH_READER_LIBRARIES  assimp: linked only by proximity_mesh_reader, never by the node
 #   HGRID_ADAPTERS_MISSING       names of all headers and libraries that were not found; empty if all were found
 # HGRID_FCL_MISSING            names of those of FCL and OctoMap that were not found
 #
 # Searches headers and libraries by file name, because some CMake config files are unusable. On Ubuntu 20.04, tinyxml2
-# has no config file and the one of assimp is broken. The config file of urdfdom caches a result that differs between
-# the first and the second run of cmake.
+# has none. The config file of urdfdom caches a result that differs between the first and the second run of cmake.
 find_package(Eigen3 REQUIRED)
 
 find_path(HGRID_URDF_PARSER_INCLUDE_DIR urdf_parser/urdf_parser.h PATH_SUFFIXES urdfdom)
@@ -19,8 +17,6 @@ find_path(HGRID_CONSOLE_BRIDGE_INCLUDE_DIR console_bridge/console.h)
 find_library(HGRID_CONSOLE_BRIDGE_LIBRARY console_bridge)
 find_path(HGRID_TINYXML2_INCLUDE_DIR tinyxml2.h)
 find_library(HGRID_TINYXML2_LIBRARY tinyxml2)
-find_path(HGRID_ASSIMP_INCLUDE_DIR assimp/scene.h)
-find_library(HGRID_ASSIMP_LIBRARY assimp)
 find_path(HGRID_FCL_INCLUDE_DIR fcl/narrowphase/distance.h)  # FCL 0.5 has no such file; Noetic installs 0.5 and 0.6
 find_library(HGRID_FCL_LIBRARY fcl)
 find_library(HGRID_CCD_LIBRARY ccd)
@@ -40,8 +36,7 @@ endmacro()
 set(HGRID_ADAPTERS_MISSING)
 set(HGRID_FCL_MISSING)
 hgrid_look(HGRID_ADAPTERS_MISSING URDF_PARSER_INCLUDE_DIR URDF_MODEL_INCLUDE_DIR URDF_EXCEPTION_INCLUDE_DIR
-  URDFDOM_MODEL_LIBRARY CONSOLE_BRIDGE_INCLUDE_DIR CONSOLE_BRIDGE_LIBRARY TINYXML2_INCLUDE_DIR TINYXML2_LIBRARY
-  ASSIMP_INCLUDE_DIR ASSIMP_LIBRARY)
+  URDFDOM_MODEL_LIBRARY CONSOLE_BRIDGE_INCLUDE_DIR CONSOLE_BRIDGE_LIBRARY TINYXML2_INCLUDE_DIR TINYXML2_LIBRARY)
 hgrid_look(HGRID_FCL_MISSING FCL_INCLUDE_DIR FCL_LIBRARY CCD_LIBRARY OCTOMAP_LIBRARY OCTOMATH_LIBRARY)
 
 list(APPEND HGRID_ADAPTERS_MISSING ${HGRID_FCL_MISSING})
@@ -49,14 +44,12 @@ list(APPEND HGRID_ADAPTERS_MISSING ${HGRID_FCL_MISSING})
 if(NOT HGRID_ADAPTERS_MISSING)
   set(HGRID_ADAPTER_INCLUDE_DIRS ${EIGEN3_INCLUDE_DIRS} ${HGRID_URDF_PARSER_INCLUDE_DIR}
     ${HGRID_URDF_MODEL_INCLUDE_DIR} ${HGRID_URDF_EXCEPTION_INCLUDE_DIR} ${HGRID_CONSOLE_BRIDGE_INCLUDE_DIR}
-    ${HGRID_TINYXML2_INCLUDE_DIR} ${HGRID_ASSIMP_INCLUDE_DIR}
-    ${HGRID_FCL_INCLUDE_DIR})
+    ${HGRID_TINYXML2_INCLUDE_DIR} ${HGRID_FCL_INCLUDE_DIR})
   list(REMOVE_DUPLICATES HGRID_ADAPTER_INCLUDE_DIRS)
   list(REMOVE_ITEM HGRID_ADAPTER_INCLUDE_DIRS /usr/include)  # the compiler always searches this folder; naming it would
                                                              # break #include_next
   set(HGRID_ADAPTER_LIBRARIES ${HGRID_URDFDOM_MODEL_LIBRARY} ${HGRID_CONSOLE_BRIDGE_LIBRARY} ${HGRID_TINYXML2_LIBRARY}
     ${HGRID_FCL_LIBRARY} ${HGRID_CCD_LIBRARY} ${HGRID_OCTOMAP_LIBRARY} ${HGRID_OCTOMATH_LIBRARY})
-  set(HGRID_MESH_READER_LIBRARIES ${HGRID_ASSIMP_LIBRARY})
 endif()
 
 # hgrid_mesh_reader_options(target): sets the options for the target of proximity_mesh_reader.

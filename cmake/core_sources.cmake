@@ -1,4 +1,4 @@
-# The sources of the core, for core/CMakeLists.txt, and those of the adapters.
+# The sources of the core, for core/CMakeLists.txt, those of the adapters, and those of proximity_mesh_reader.
 set(HGRID_CORE_SOURCES
   src/bodies/forward_kinematics.cpp
   src/bodies/group_tree.cpp
@@ -165,6 +165,14 @@ set(HGRID_ADAPTER_SOURCES
   src/adapters/urdf/urdf.cpp
   src/adapters/urdf/urdf_tree.cpp
   src/adapters/urdf/xml.cpp
+)
+set(HGRID_MESH_FILE_SOURCES  # without the main function
+  src/adapters/urdf/xml.cpp
+  src/tools/mesh/dae_file.cpp
+  src/tools/mesh/faces.cpp
+  src/tools/mesh/obj_file.cpp
+  src/tools/mesh/polygon.cpp
+  src/tools/mesh/stl_file.cpp
 )
 
 # The inner loops of the broad phase are compiled once per instruction set. The program chooses one at run time.

@@ -3,17 +3,14 @@
 // proximity_mesh_reader: reads a mesh file from standard input and writes the mesh to standard output. kUsage lists the
 // arguments. The format of the output is in mesh_stream.h.
 //
-// The parser may crash or hang on a broken file, so it runs in this process and not in the node. The process first sets
-// limits for its own memory, time and files.
+// A broken file may take much time or memory, or show an error of a parser. So files are read in this process and not
+// in the node. The process first sets limits for its own memory, time and files.
 
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <assimp/Importer.hpp>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -24,14 +21,16 @@
 
 #include "adapters/mesh/mesh_stream.h"
 #include "hgrid_proximity/refusal.h"
-#include "tools/plain_obj.h"
-#include "tools/stl_check.h"
+#include "tools/mesh/dae_file.h"
+#include "tools/mesh/obj_file.h"
+#include "tools/mesh/stl_file.h"
 
 namespace {
 
 using hgrid::Code;
 using hgrid::Refusal;
 using hgrid::StreamHeader;
+using hgrid::Triangles;
 
 constexpr char kUsage[] =
     "usage: proximity_mesh_reader KIND MAX_TRIANGLES MAX_MEMORY CPU_SECONDS < FILE > MESH\n\n"
@@ -44,11 +43,6 @@ constexpr char kUsage[] =
     "  CPU_SECONDS    largest CPU time of the process [s]\n"
     "  -h, --help     print this text and end\n\n"
     "exit codes: 0 the output is a mesh or says why there is none; 2 wrong arguments; others: the reader crashed\n";
-
-struct Mesh {
-  std::vector<std::array<float, 3>> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-};
 
 /// Sets both the soft and the hard limit of a resource.
 void limit(int resource, rlim_t value) {
@@ -92,50 +86,14 @@ void writeAll(const void* data, std::size_t bytes) {
   }
 }
 
-/// Adds the triangles of a node and of its children to `mesh`, transformed to the frame of the root.
-void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, Mesh& mesh,
-             std::size_t max_triangles) {
-  const aiMatrix4x4 transform = parent * node.mTransformation;
-  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-    const aiMesh& part = *scene.mMeshes[node.mMeshes[i]];
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    const unsigned second = transform.Determinant() < 0 ? 2 : 1;  // mirroring would turn the mesh inside out
-    for (unsigned f = 0; f < part.mNumFaces; ++f) {
-      const aiFace& face = part.mFaces[f];
-      if (face.mNumIndices != 3) continue;  // after triangulation, other faces are points or lines
-      mesh.triangles.push_back(
-          {first + face.mIndices[0], first + face.mIndices[second], first + face.mIndices[3 - second]});
-    }
-    for (unsigned v = 0; v < part.mNumVertices; ++v) {
-      const aiVector3D p = transform * part.mVertices[v];
-      mesh.vertices.push_back({p.x, p.y, p.z});
-    }
-    if (mesh.triangles.size() > max_triangles) {
-      throw Refusal(Code::limit, "it has too many triangles; at most " + std::to_string(max_triangles) +
-                                     " are allowed; simplify it");
-    }
+/// @throws Refusal if it cannot be read, or if a part of its surface would be missing
+Triangles parse(const std::string& file, const std::string& kind, std::size_t max_triangles) {
+  Triangles mesh(max_triangles);
+  if (kind == "dae") {
+    hgrid::readDae(file, mesh);
+  } else {
+    mesh.add(kind == "stl" ? hgrid::readStl(file) : hgrid::readObj(file));
   }
-  for (unsigned i = 0; i < node.mNumChildren; ++i) {
-    collect(scene, *node.mChildren[i], transform, mesh, max_triangles);
-  }
-}
-
-Mesh parse(const std::string& file, const std::string& kind, std::size_t max_triangles) {
-  if (kind == "stl") hgrid::checkStl(file);
-  const std::string data = kind == "obj" ? hgrid::plainObj(file) : file;
-  Assimp::Importer importer;
-  // Apply the unit of a COLLADA file, but ignore its up axis. RViz does the same.
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  const aiScene* scene = importer.ReadFileFromMemory(
-      data.data(), data.size(), aiProcess_Triangulate | aiProcess_JoinIdenticalVertices, kind.c_str());
-  if (scene == nullptr || scene->mRootNode == nullptr) {
-    const std::string error = importer.GetErrorString();
-    if (error.find("bad_alloc") != std::string::npos)
-      throw std::bad_alloc();  // assimp has turned the exception into text
-    throw Refusal(Code::parse, "it cannot be read: " + error);
-  }
-  Mesh mesh;
-  collect(*scene, *scene->mRootNode, aiMatrix4x4(), mesh, max_triangles);
   return mesh;
 }
 
@@ -157,12 +115,12 @@ int main(int argc, char** argv) {
   const auto number = [&](int i) { return std::strtoull(argv[i], nullptr, 10); };
   limitProcess(number(3), number(4));
   try {
-    const Mesh mesh = parse(readAll(), argv[1], number(2));
-    const StreamHeader header{StreamHeader::kMesh, static_cast<std::uint32_t>(mesh.vertices.size()),
-                              static_cast<std::uint32_t>(mesh.triangles.size())};
+    const Triangles mesh = parse(readAll(), argv[1], number(2));
+    const StreamHeader header{StreamHeader::kMesh, static_cast<std::uint32_t>(mesh.vertices().size()),
+                              static_cast<std::uint32_t>(mesh.triangles().size())};
     writeAll(&header, sizeof(header));
-    writeAll(mesh.vertices.data(), mesh.vertices.size() * sizeof(mesh.vertices[0]));
-    writeAll(mesh.triangles.data(), mesh.triangles.size() * sizeof(mesh.triangles[0]));
+    writeAll(mesh.vertices().data(), mesh.vertices().size() * sizeof(mesh.vertices()[0]));
+    writeAll(mesh.triangles().data(), mesh.triangles().size() * sizeof(mesh.triangles()[0]));
   } catch (const Refusal& refusal) {
     writeRefusal(refusal.code(), refusal.what());
   } catch (const std::bad_alloc&) {

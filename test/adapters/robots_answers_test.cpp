@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // Compares the pairs and distances of robots with robots.hash. Every system must give the same numbers to 1e-9,
-// whatever its versions of urdfdom, assimp, FCL, Eigen and the C library are. After a deliberate change of the answers,
+// whatever its versions of urdfdom, FCL, Eigen and the C library are. After a deliberate change of the answers,
 // write the hash that the failed test prints into robots.hash.
 #include <gtest/gtest.h>
 

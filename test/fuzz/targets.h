@@ -25,7 +25,7 @@ FuzzResult fuzzUrdf(std::string_view input);
 FuzzResult fuzzSrdf(std::string_view input);
 /// Reads a mesh file in the helper process. The first byte is the kind of the file: s, o or d for STL, OBJ or DAE.
 FuzzResult fuzzMesh(std::string_view input);
-/// Checks the lines of an OBJ file, without the helper process.
+/// Reads an OBJ file without the helper process.
 FuzzResult fuzzObj(std::string_view input);
 /// Reads a PointCloud2 message. The first byte selects whether the other bytes are the message, or only describe its
 /// layout.

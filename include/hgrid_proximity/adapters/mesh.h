@@ -26,7 +26,7 @@ struct MeshPolicy {
 
 /// Reads STL, DAE and OBJ files in a helper process.
 ///
-/// The helper is needed because the parser library may crash or hang on a broken file. The helper can access only the
+/// The helper is needed because reading a broken file may crash or take too long. The helper can access only the
 /// open file, and its memory, time and files are limited. The loader checks the result again. A loader reads each file
 /// only once. Only one thread may use a loader at a time.
 class MeshLoader {
@@ -38,7 +38,7 @@ class MeshLoader {
   /// order of the corners is reversed, so that the triangles still face outward.
   /// @throws Refusal with one of these codes:
   /// - resource_denied, resource_missing, limit: see openResource(); limit also if there are too many triangles
-  /// - unsupported, parse: the file is of another kind, or it cannot be parsed
+  /// - unsupported, parse: the file is of another kind, it cannot be parsed, or a part of its surface would be missing
   /// - nonfinite, out_of_range, bad_geometry: the scale or the mesh is not valid
   /// - budget: reading took longer than the timeout
   /// - truncated: the helper ended too early

@@ -322,8 +322,7 @@ void visitParams(Visitor& v, Params& p) {
   v.integer("max_mesh_bytes", p.max_mesh_bytes, 1000, 1 << 30, "largest size of a mesh file, in bytes");
   v.integer("max_mesh_triangles", p.max_mesh_triangles, 1, 100000000, "largest number of triangles of a mesh");
   v.integer("mesh_memory", p.mesh_memory, 64 << 20, 2147483647,
-            "largest amount of memory for reading a mesh, in bytes; a mesh with nearly max_mesh_triangles needs more "
-            "than the default");
+            "largest amount of memory for reading a mesh, in bytes");
   v.number(
       "mesh_timeout", p.mesh_timeout, "s", 0.1, 600.0,
       "longest time for reading a mesh; all meshes of a robot together may take 4 times as long, and the rest is not "
