@@ -10,7 +10,7 @@ export PATH="/usr/bin:/usr/sbin:$PATH"  # ROS needs the python3 of the system; a
 
 build_packages=(
   catkin cmake g++ make ros-core-dev
-  libassimp-dev libconsole-bridge-dev libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev libeigen3-dev
+  libconsole-bridge-dev libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev libeigen3-dev
   libfcl-dev libnodelet-dev libnodeletlib-dev libtf2-msgs-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev
   libyaml-cpp-dev pluginlib-dev python3-setuptools rosbash
 )
