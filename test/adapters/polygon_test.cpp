@@ -229,7 +229,7 @@ class PolygonFaces : public ::testing::Test {
     Random random(seed);
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<Polygon> polygons;
-      for (int i = 0; i < 150; ++i) polygons.push_back(turned(make(random), random));
+      for (int i = 0; i < 80; ++i) polygons.push_back(turned(make(random), random));
       const std::vector<Face> faces = placed(polygons, axis);
       for (const std::string kind : {"obj", "polylist", "polygons"}) {
         SCOPED_TRACE(kind);
