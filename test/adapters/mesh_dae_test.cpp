@@ -5,7 +5,9 @@
 // element. No part of the surface is left out without a word.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "test/adapters/temporary_folder.h"
 #include "test/support/mesh_oracle.h"
@@ -240,13 +242,13 @@ TEST_F(Collada, CountsMustFit) {
   expectRefusal(scene, "<p>");
   scene.mesh = meshOf(faces("triangles", 1, "<p>0 2 8</p>"), "g");
   expectRefusal(scene, "vertex 8", Code::bad_geometry);
-  for (const auto& [part, instead, word] : {std::array<std::string, 3>{"count='8'", "count='9'", "<accessor>"},
-                                            {"stride='3'", "stride='1'", "<accessor>"},
-                                            {"name='Y'", "name='Z'", "<accessor>"},
-                                            {"count='24'", "count='27'", "<float_array>"},
-                                            {"1 1 1<", "1 1 1,0<", "<float_array>"},
-                                            {"'POSITION'", "'NORMAL'", "<vertices>"},
-                                            {"source='#vg'", "source='#vh'", "<input>"}}) {
+  const std::vector<std::array<std::string, 3>> changes = {
+      {"count='8'", "count='9'", "<accessor>"},    {"stride='3'", "stride='1'", "<accessor>"},
+      {"name='Y'", "name='Z'", "<accessor>"},      {"count='24'", "count='27'", "<float_array>"},
+      {"1 1 1<", "1 1 1,0<", "<float_array>"},     {"'POSITION'", "'NORMAL'", "<vertices>"},
+      {"source='#vg'", "source='#vh'", "<input>"},
+  };
+  for (const auto& [part, instead, word] : changes) {
     scene.mesh = kCube;
     scene.mesh.replace(scene.mesh.find(part), part.size(), instead);
     const Code code = refusal(dae(scene));

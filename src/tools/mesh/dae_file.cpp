@@ -281,8 +281,9 @@ class SceneReader {
         stride = std::max(stride, offset + 1);
         const char* const semantic = child.Attribute("semantic");
         if (semantic == nullptr || std::string(semantic) != "VERTEX") return;
-        if (&target(child, "source", "vertices") != &vertices)
+        if (&target(child, "source", "vertices") != &vertices) {
           refuse(Code::parse, child, "has vertices of another mesh");
+        }
         vertex = offset;
         ++vertex_inputs;
       } else if (isNamed(child, {"vcount"})) {

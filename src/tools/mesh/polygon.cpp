@@ -71,8 +71,9 @@ class Split {
   /// Whether all corners lie in a plane.
   bool isFlat() const {
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    for (const Triangle& t : triangles_)
+    for (const Triangle& t : triangles_) {
       normal += (corners_[t[1]] - corners_[t[0]]).cross(corners_[t[2]] - corners_[t[0]]);
+    }
     normal.normalize();
     return std::all_of(corners_.begin(), corners_.end(), [&](const Eigen::Vector3d& corner) {
       return std::abs(normal.dot(corner - corners_[0])) <= kFlat * length_;

@@ -16,8 +16,8 @@ namespace hgrid {
 /// - A polygon may touch itself, for instance where two coinciding sides lead to a hole.
 /// - If sides cross each other, the triangles cover at least each point around which the polygon winds.
 /// - A polygon that is not flat has no area of its own. It is split in its projection along the axis that is nearest to
-///   its normal. The surface bulges toward the normal as far as triangles between the corners can. So no other way to
-///   split the polygon encloses more.
+///   its normal. Then sides within it are replaced by other diagonals as long as that moves the surface toward the
+///   normal. So if the projection is convex, no other way to split the polygon encloses more.
 ///
 /// @returns numbers of corners, three for each triangle; they turn in the same direction as the polygon
 std::vector<std::array<std::uint32_t, 3>> splitPolygon(const std::vector<Eigen::Vector3f>& corners);
