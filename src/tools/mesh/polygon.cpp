@@ -53,16 +53,18 @@ class Split {
   /// Replaces sides between two triangles by the other diagonal of the two, where that moves the surface outward.
   void bulge() {
     bool changed = true;
-    for (std::size_t left = corners_.size() * corners_.size(); changed && left > 0; --left) {
+    for (std::size_t left = corners_.size(); changed && left > 0; --left) {  // rounding could repeat this forever
       changed = false;
       std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> sides;  // triangles by their sides
       for (std::size_t i = 0; i < triangles_.size(); ++i) {
         for (int k = 0; k < 3; ++k) sides[{triangles_[i][k], triangles_[i][(k + 1) % 3]}] = i;
       }
-      for (std::size_t i = 0; i < triangles_.size() && !changed; ++i) {
-        for (int k = 0; k < 3 && !changed; ++k) {
+      std::vector<bool> is_new(triangles_.size(), false);  // triangles that `sides` does not describe any more
+      for (std::size_t i = 0; i < triangles_.size(); ++i) {
+        for (int k = 0; k < 3 && !is_new[i]; ++k) {
           const auto other = sides.find({triangles_[i][(k + 1) % 3], triangles_[i][k]});
-          changed = other != sides.end() && flip(triangles_[i], k, triangles_[other->second]);
+          if (other == sides.end() || is_new[other->second]) continue;
+          if (flip(triangles_[i], k, triangles_[other->second])) is_new[i] = is_new[other->second] = changed = true;
         }
       }
     }
