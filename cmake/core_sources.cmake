@@ -89,6 +89,7 @@ set(HGRID_CORE_SOURCES
   src/narrow/convex_pair.cpp
   src/narrow/convex_solid.cpp
   src/narrow/core_narrow_phase.cpp
+  src/narrow/depth_bound.cpp
   src/narrow/distance_lattice.cpp
   src/narrow/enclosure.cpp
   src/narrow/gjk.cpp

@@ -6,6 +6,7 @@
 
 #include "geometry/infinity.h"
 #include "maps/map_gap.h"
+#include "narrow/measured_contact.h"
 
 namespace hgrid {
 namespace {
@@ -85,6 +86,7 @@ MapProximity measureMap(const NarrowPhase& narrow_phase, const Snapshot& snapsho
     if (found.distance < nearest.proximity.distance) {
       nearest.shape = shape;
       nearest.proximity = found;
+      nearest.contact = measuredContact(narrow_phase, a, b, found.status);
     }
     NearCell cell = pair.cellOf(voxel, found.distance);
     auto& cells = nearest.cells;

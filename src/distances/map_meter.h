@@ -10,6 +10,7 @@ namespace hgrid {
 struct MapProximity {
   std::uint32_t shape = 0;      ///< index of the shape of the body that is nearest to the map
   Proximity proximity;          ///< proximity of this shape and the nearest cell; "first" is the first body of the pair
+  Contact contact;              ///< their contact; all NaN if they are apart
   std::vector<NearCell> cells;  ///< the cells nearest to the body, nearest first
 };
 

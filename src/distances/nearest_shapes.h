@@ -19,6 +19,7 @@ struct ShapePair {
 struct NearestShapes {
   std::uint32_t first = 0, second = 0;
   Proximity proximity;
+  Contact contact;              ///< their contact; all NaN if they are apart
   std::vector<NearCell> cells;  ///< nearest cells, if one of the bodies is a map
 };
 

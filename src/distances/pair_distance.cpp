@@ -9,6 +9,7 @@
 #include "distances/map_meter.h"
 #include "distances/nearest_shapes.h"
 #include "hgrid_proximity/geometry/float_environment.h"
+#include "narrow/measured_contact.h"
 
 namespace hgrid {
 namespace {
@@ -49,6 +50,7 @@ NearestShapes nearestShapes(const NarrowPhase& narrow_phase, const Snapshot& sna
     MapProximity found = measureMap(narrow_phase, snapshot, first, second, up_to);
     (snapshot.structure().isMap(first) ? nearest.second : nearest.first) = found.shape;
     nearest.proximity = found.proximity;
+    nearest.contact = found.contact;
     nearest.cells = std::move(found.cells);
     return nearest;
   }
@@ -61,10 +63,13 @@ NearestShapes nearestShapes(const NarrowPhase& narrow_phase, const Snapshot& sna
   for (const ShapePair& shapes : shape_pairs) {
     if (shapes.gap > least) break;
     Proximity found;
-    placed(snapshot, first, second, shapes,
-           [&](const PlacedSolid& a, const PlacedSolid& b) { found = narrow_phase.measure(a, b, least); });
+    Contact contact;
+    placed(snapshot, first, second, shapes, [&](const PlacedSolid& a, const PlacedSolid& b) {
+      found = narrow_phase.measure(a, b, least);
+      contact = measuredContact(narrow_phase, a, b, found.status);
+    });
     if (found.status == Measure::not_measured || found.distance < nearest.proximity.distance) {
-      nearest = {shapes.first, shapes.second, found, {}};
+      nearest = {shapes.first, shapes.second, found, contact, {}};
     }
     if (found.status != Measure::apart) break;  // no other pair of shapes can be nearer
     least = std::min(least, found.distance);
@@ -83,6 +88,7 @@ PairDistance measurePair(const NarrowPhase& narrow_phase, const Snapshot& snapsh
   result.first_shape = nearest.first;
   result.second_shape = nearest.second;
   result.proximity = nearest.proximity;
+  result.contact = nearest.contact;
   result.cells = nearest.cells;
   return result;
 }

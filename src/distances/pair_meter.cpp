@@ -39,6 +39,7 @@ struct PairMeter::State {
     Pose world_from_first = Pose::Identity(), world_from_second = Pose::Identity();
     std::uint32_t first_shape = 0, second_shape = 0;
     Proximity proximity;
+    Contact contact;
     std::vector<NearCell> cells;
     std::shared_ptr<const MapCells> map;  // the cells of the map at the measurement; null if neither body is a map
     double up_to = 0.0;                   // [m] larger distances were not searched
@@ -198,6 +199,7 @@ void PairMeter::State::perform(const Snapshot& snapshot, Job& job, std::vector<S
   now.first_shape = nearest.first;
   now.second_shape = nearest.second;
   now.proximity = nearest.proximity;
+  now.contact = nearest.contact;
   now.cells = nearest.cells;
   now.map = mapOf(snapshot, now);
   now.measured = true;
@@ -227,6 +229,7 @@ PairDistance PairMeter::State::entryOf(const Snapshot& snapshot, const Job& job)
   entry.flags = job.pair->flags;
   if (!job.left_out) {
     entry.proximity = job.known.proximity;
+    entry.contact = job.known.contact;
     entry.cells = job.known.cells;
     entry.first_shape = job.known.first_shape;
     entry.second_shape = job.known.second_shape;

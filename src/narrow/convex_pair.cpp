@@ -19,8 +19,6 @@ constexpr double kDisagreement = 1e-6;
 // of the size of the solids and of their distance. Among shapes of kilometers, searches end before their bounds are
 // equal.
 constexpr double kUnsettled = 1e-7;
-// [m] To verify a depth, the solids are moved apart by the depth plus this length. Then they must be apart.
-constexpr double kHair = 1e-6;
 
 const ConvexSolid& convex(const Side& side) { return static_cast<const ConvexSolid&>(side.solid); }
 
@@ -117,12 +115,13 @@ Contact contactByGap(const Side& a, const Side& b, const CoreGap& gap) {
   const Vector between = gap.on_second - gap.on_first;
   const double length = between.norm();
   Contact contact;
-  if (length <= around + kDisagreement) {  // otherwise the search could not prove that they are apart
+  // Otherwise, the search could not prove that they are apart, or it found nothing.
+  if (length <= around + kDisagreement && gap.upper < kInfinity) {
     contact.point = gap.on_first + (around > 0.0 ? a.around / around : 0.5) * between;
   }
   if (gap.lower > 0.0) {
     contact.normal = between / length;
-    contact.depth = std::max(0.0, around - length);
+    contact.depth = std::max(0.0, around - gap.upper);
   }
   return contact;
 }
@@ -143,9 +142,7 @@ Proximity measureConvex(const Side& a, const Side& b, double up_to, FindOverlap 
   return result;
 }
 
-std::vector<Contact> contactsOfConvex(const Side& a, const Side& b, std::size_t most, FindOverlap findOverlap) {
-  const Measure status = most > 0 ? measureConvex(a, b, 0.0, findOverlap).status : Measure::not_measured;
-  if (!hasContacts(status)) return {};
+Contact contactOfConvex(const Side& a, const Side& b, FindOverlap findOverlap) {
   const Pose a_from_b = a.world_from_shape.inverse() * b.world_from_shape;
   const CoreGap gap = gapOf(convex(a).core(), convex(b).core(), a_from_b, a.around + b.around + kTouchingGap);
   Contact contact = contactByGap(a, b, gap);
@@ -155,7 +152,13 @@ std::vector<Contact> contactsOfConvex(const Side& a, const Side& b, std::size_t 
     contact.normal = described.normal;
     contact.depth = described.depth;
   }
-  return {contact};
+  return contact;
+}
+
+std::vector<Contact> contactsOfConvex(const Side& a, const Side& b, std::size_t most, FindOverlap findOverlap) {
+  const Measure status = most > 0 ? measureConvex(a, b, 0.0, findOverlap).status : Measure::not_measured;
+  if (!hasContacts(status)) return {};
+  return {contactOfConvex(a, b, findOverlap)};
 }
 
 }  // namespace hgrid

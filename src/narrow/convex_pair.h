@@ -11,6 +11,9 @@ namespace hgrid {
 
 constexpr double kTouchingGap = 1e-9;  ///< [m] a list of contacts includes parts that are at most this far apart
 
+/// [m] To verify a depth, the solids are moved apart by the depth plus this length. Then they must be apart.
+constexpr double kHair = 1e-6;
+
 /// The overlap of two convex cores, in the frame of the first core.
 struct Overlap {
   double depth = 0.0;  ///< [m] penetration depth of the cores, without the radius around them
@@ -26,6 +29,9 @@ inline std::optional<Overlap> noOverlap(const ConvexSolid&, const ConvexSolid&, 
 /// Measures two convex solids in the frame of the first.
 /// @param findOverlap  called first if the cores meet
 Proximity measureConvex(const Side& a, const Side& b, double up_to, FindOverlap findOverlap);
+/// Returns the contact of two convex solids that are in contact, in the frame of the first. Depth and normal are known
+/// if the cores are apart, if they only touch, or if `findOverlap` finds them.
+Contact contactOfConvex(const Side& a, const Side& b, FindOverlap findOverlap);
 /// Returns the contacts of two convex solids in the frame of the first. There is at most one.
 std::vector<Contact> contactsOfConvex(const Side& a, const Side& b, std::size_t most, FindOverlap findOverlap);
 

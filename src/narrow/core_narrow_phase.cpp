@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "narrow/core_narrow_phase.h"
 
+#include <cmath>
+
+#include "narrow/depth_bound.h"
 #include "narrow/mesh_pair.h"
 
 namespace hgrid {
@@ -28,6 +31,14 @@ std::shared_ptr<const Solid> CoreNarrowPhase::block(const Eigen::Vector3d& size)
 Proximity CoreNarrowPhase::measureInOrder(const Side& a, const Side& b, double up_to) const {
   if (a.solid.kind() == ShapeKind::plane) return measurePlane(a, b, up_to);
   return a.solid.kind() == ShapeKind::mesh ? measureMesh(a, b, up_to) : measureConvex(a, b, up_to, findOverlap_);
+}
+
+Contact CoreNarrowPhase::measureContactInOrder(const Side& a, const Side& b) const {
+  if (a.solid.kind() == ShapeKind::plane) return contactOfPlane(a, b);
+  const bool is_mesh = a.solid.kind() == ShapeKind::mesh;
+  Contact contact = is_mesh ? contactOfMesh(a, b) : contactOfConvex(a, b, findOverlap_);
+  if (std::isnan(contact.depth)) boundDepth(a, b, contact);
+  return contact;
 }
 
 std::vector<Contact> CoreNarrowPhase::contactsInOrder(const Side& a, const Side& b, std::size_t most) const {

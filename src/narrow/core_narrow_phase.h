@@ -25,6 +25,7 @@ class CoreNarrowPhase : public OrderedNarrowPhase {
 
  protected:
   Proximity measureInOrder(const Side& a, const Side& b, double up_to) const final;
+  Contact measureContactInOrder(const Side& a, const Side& b) const final;
   std::vector<Contact> contactsInOrder(const Side& a, const Side& b, std::size_t most) const final;
 
  private:

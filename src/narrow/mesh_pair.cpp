@@ -102,6 +102,31 @@ Proximity measureMesh(const Side& mesh, const Side& other, double up_to) {
   return result;
 }
 
+Contact contactOfMesh(const Side& mesh, const Side& other) {
+  const Pose mesh_from_other = mesh.world_from_shape.inverse() * other.world_from_shape;
+  const double around = mesh.around + other.around;
+  const CoreGap gap = gapOfMesh(mesh, other, mesh_from_other, around + kTouchingGap);
+  if (gap.lower > around) {  // otherwise the surfaces have points in common, also if one is inside the other
+    const Enclosed inside = enclosed(mesh, other, mesh_from_other);
+    if (inside.status != Measure::apart) {
+      Contact contact;
+      contact.point = inside.point;
+      return contact;
+    }
+  }
+  Contact contact = contactByGap(mesh, other, gap);
+  // The move separates the two nearest parts. Other parts may be in its way.
+  Pose moved = other.world_from_shape;
+  moved.translation() += (contact.depth + kHair) * (mesh.world_from_shape.linear() * contact.normal);
+  const double padding = other.around - other.solid.radius();
+  if (gap.lower > 0.0 && measureMesh(mesh, Side({other.solid, moved, padding}), 0.0).status == Measure::apart) {
+    return contact;
+  }
+  contact.normal.setConstant(Proximity::kUnknown);
+  contact.depth = Proximity::kUnknown;
+  return contact;
+}
+
 std::vector<Contact> contactsOfMesh(const Side& mesh, const Side& other, std::size_t most) {
   const Measure status = most > 0 ? measureMesh(mesh, other, 0.0).status : Measure::not_measured;
   if (!hasContacts(status)) return {};

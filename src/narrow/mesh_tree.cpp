@@ -3,6 +3,7 @@
 #include "narrow/mesh_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "narrow/box_search.h"
@@ -105,6 +106,49 @@ void allMeetings(BoxSearch search, const Meter& measure, double reach, const Mes
 }  // namespace
 
 MeshTree::MeshTree(const TriangleMesh& mesh) : triangles_(trianglesOf(mesh)), boxes_(boxTreeOf(triangles_)) {}
+
+Eigen::Vector3d MeshTree::support(const Eigen::Vector3d& direction) const {
+  struct Waiting {
+    float most;  // [m] upper bound for the triangles below the node, times the length of the direction
+    std::size_t node;
+  };
+  std::array<Waiting, 3 * BoxTree::kMostLevels + 1> waiting;  // the last one is next; a level leaves at most three
+  const auto rounding = static_cast<float>(2.0 * kBoxRounding * boxes_.reach * direction.norm());
+  const auto x = static_cast<float>(direction.x()), y = static_cast<float>(direction.y()),
+             z = static_cast<float>(direction.z());
+  const double from_center = direction.dot(boxes_.center);
+  Eigen::Vector3d farthest = triangles_.front().front();
+  double most = direction.dot(farthest) - from_center;
+  waiting[0] = {std::numeric_limits<float>::infinity(), 0};
+  for (std::size_t count = 1; count > 0;) {
+    const Waiting next = waiting[--count];
+    if (static_cast<double>(next.most) <= most) continue;
+    const BoxNode& node = boxes_.nodes[next.node];
+    Four bounds = rounding + x * node.center[0] + y * node.center[1] + z * node.center[2];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Four along = x * node.axes[i][0] + y * node.axes[i][1] + z * node.axes[i][2];
+      bounds += greatest(along, -along) * node.half[i];
+    }
+    const std::size_t begin = count;
+    for (std::size_t lane = 0; lane < static_cast<std::size_t>(node.count); ++lane) {
+      const float bound = bounds[lane];
+      if (static_cast<double>(bound) <= most) continue;
+      if (node.child[lane] >= 0) {
+        std::size_t place = count++;  // sorted, the node with the greatest bound last
+        for (; place > begin && waiting[place - 1].most > bound; --place) waiting[place] = waiting[place - 1];
+        waiting[place] = {bound, static_cast<std::size_t>(node.child[lane])};
+        continue;
+      }
+      for (const Eigen::Vector3d& corner : triangles_[static_cast<std::size_t>(~node.child[lane])]) {
+        const double along = direction.dot(corner) - from_center;
+        if (along <= most) continue;
+        most = along;
+        farthest = corner;
+      }
+    }
+  }
+  return farthest;
+}
 
 void MeshTree::makeHulls() const {
   std::call_once(hulls_made_, [this] {

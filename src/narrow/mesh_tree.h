@@ -24,6 +24,9 @@ class MeshTree {
   explicit MeshTree(const TriangleMesh& mesh);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
+  const BoxTree& boxes() const { return boxes_; }
+  /// Returns a point of the triangles that is farthest in the given direction, in the frame of the mesh [m].
+  Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
 
   /// Makes the convex hulls of the parts of the mesh, at the first call. They often prove that two meshes are apart
   /// although their boxes overlap, so that gapTo() of two trees with hulls takes less time. For each thousand

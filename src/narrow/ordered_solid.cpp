@@ -28,6 +28,13 @@ Proximity inWorld(Proximity result, const Side& frame) {
   return result;
 }
 
+/// @param exchanged  whether the contact is that of the exchanged solids
+void toWorld(Contact& contact, const Side& frame, bool exchanged) {
+  contact.point = frame.world_from_shape * contact.point;
+  contact.normal = frame.world_from_shape.linear() * contact.normal;
+  if (exchanged) contact.normal = -contact.normal;
+}
+
 /// Returns the radius around the core of a shape [m].
 double radiusOf(const Shape& shape) {
   if (shape.kind() == ShapeKind::sphere) return shape.dimensions()[0];
@@ -72,17 +79,24 @@ Proximity OrderedNarrowPhase::measure(const PlacedSolid& first, const PlacedSoli
   return result;
 }
 
+Contact OrderedNarrowPhase::measureContact(const PlacedSolid& first, const PlacedSolid& second) const {
+  const Side a(first), b(second);
+  const bool exchanged = goesAfter(a, b);
+  try {
+    Contact contact = exchanged ? measureContactInOrder(b, a) : measureContactInOrder(a, b);
+    toWorld(contact, exchanged ? b : a, exchanged);
+    return contact;
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
 std::vector<Contact> OrderedNarrowPhase::contacts(const PlacedSolid& first, const PlacedSolid& second,
                                                   std::size_t most) const {
   const Side a(first), b(second);
   const bool exchanged = goesAfter(a, b);
-  const Pose& world_from_frame = exchanged ? b.world_from_shape : a.world_from_shape;
   std::vector<Contact> found = exchanged ? contactsInOrder(b, a, most) : contactsInOrder(a, b, most);
-  for (Contact& contact : found) {
-    contact.point = world_from_frame * contact.point;
-    contact.normal = world_from_frame.linear() * contact.normal;
-    if (exchanged) contact.normal = -contact.normal;
-  }
+  for (Contact& contact : found) toWorld(contact, exchanged ? b : a, exchanged);
   std::stable_sort(found.begin(), found.end(), [](const Contact& m, const Contact& n) { return deeper(m, n); });
   return found;
 }

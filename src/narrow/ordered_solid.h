@@ -53,11 +53,14 @@ struct Side {
 class OrderedNarrowPhase : public NarrowPhase {
  public:
   Proximity measure(const PlacedSolid& first, const PlacedSolid& second, double up_to) const final;
+  Contact measureContact(const PlacedSolid& first, const PlacedSolid& second) const final;
   std::vector<Contact> contacts(const PlacedSolid& first, const PlacedSolid& second, std::size_t most) const final;
 
  protected:
   /// Implements measure() for a sorted pair, in the frame of `a`. May throw std::exception.
   virtual Proximity measureInOrder(const Side& a, const Side& b, double up_to) const = 0;
+  /// Implements measureContact() for a sorted pair, in the frame of `a`. May throw std::exception.
+  virtual Contact measureContactInOrder(const Side& a, const Side& b) const = 0;
   /// Implements contacts() for a sorted pair, in the frame of `a`. The contacts may have any order.
   virtual std::vector<Contact> contactsInOrder(const Side& a, const Side& b, std::size_t most) const = 0;
 };

@@ -43,7 +43,8 @@ Contact contactAt(const Side& plane, const Side& other, const Vector& point) {
   Contact contact;
   contact.normal = Vector::UnitZ();
   contact.depth = depth;
-  contact.point = {point.x(), point.y(), plane.around - 0.5 * depth};
+  // The middle of the overlap, but not above the core's lowest point: the core may be thin and tilted there.
+  contact.point = {point.x(), point.y(), std::min(point.z(), plane.around - 0.5 * depth)};
   return contact;
 }
 
@@ -68,6 +69,11 @@ Proximity measurePlane(const Side& plane, const Side& other, double up_to) {
   return result;
 }
 
+Contact contactOfPlane(const Side& plane, const Side& other) {
+  if (other.solid.kind() == ShapeKind::plane) return {};
+  return contactAt(plane, other, lowestPoint(other.solid, plane.world_from_shape.inverse() * other.world_from_shape));
+}
+
 std::vector<Contact> contactsOfPlane(const Side& plane, const Side& other, std::size_t most) {
   const Proximity found = most > 0 ? measurePlane(plane, other, kTouchingGap) : Proximity{};
   if (found.status == Measure::failed) hasContacts(found.status);  // throws
@@ -75,7 +81,7 @@ std::vector<Contact> contactsOfPlane(const Side& plane, const Side& other, std::
   if (other.solid.kind() == ShapeKind::plane) return {Contact{}};
   const Pose plane_from_other = plane.world_from_shape.inverse() * other.world_from_shape;
   if (other.solid.kind() != ShapeKind::mesh) {
-    return {contactAt(plane, other, lowestPoint(other.solid, plane_from_other))};
+    return {contactOfPlane(plane, other)};
   }
   std::vector<Contact> contacts;
   for (const Triangle& triangle : static_cast<const MeshSolid&>(other.solid).tree().triangles()) {

@@ -19,6 +19,8 @@ class PlaneSolid final : public OrderedSolid {
 // because two half-spaces meet unless they are exactly parallel; their depth is not known.
 
 Proximity measurePlane(const Side& plane, const Side& other, double up_to);
+/// Returns the contact of a plane and a solid that are in contact. Nothing is known about the contact of two planes.
+Contact contactOfPlane(const Side& plane, const Side& other);
 /// A convex solid has at most one contact with a plane. A mesh has one for each triangle that meets the plane.
 std::vector<Contact> contactsOfPlane(const Side& plane, const Side& other, std::size_t most);
 

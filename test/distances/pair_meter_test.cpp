@@ -58,6 +58,12 @@ class BallPhase final : public NarrowPhase {
     return result;
   }
 
+  Contact measureContact(const PlacedSolid& first, const PlacedSolid& second) const override {
+    ++described;
+    Contact contact;
+    contact.point = 0.5 * (first.world_from_shape.translation() + second.world_from_shape.translation());
+    return contact;
+  }
   std::vector<Contact> contacts(const PlacedSolid& first, const PlacedSolid& second, std::size_t most) const override {
     if (most == 0 || measure(first, second, 0.0).status != Measure::contact) return {};
     Contact contact;
@@ -70,8 +76,9 @@ class BallPhase final : public NarrowPhase {
   }
 
   mutable std::atomic<int> asked{0};
-  int throws_at = 0;              // number of the measurement that throws bad_alloc; 0: none
-  std::thread::id throws_beside;  // if set: this thread waits, and the other threads throw bad_alloc
+  mutable std::atomic<int> described{0};  // number of calls of measureContact()
+  int throws_at = 0;                      // number of the measurement that throws bad_alloc; 0: none
+  std::thread::id throws_beside;          // if set: this thread waits, and the other threads throw bad_alloc
   mutable std::atomic<bool> thrown{false};
   std::chrono::microseconds takes{0};  // how long each measurement takes by now()
   bool fails = false;
@@ -137,6 +144,27 @@ TEST_F(PairMeterTest, AsksNobodyWhatItKnowsWhileNothingMoves) {
   scene_.place(b, at(1.06), std::chrono::milliseconds(3));
   measure(meter, 3);
   EXPECT_EQ(phase_->asked, asked + 1) << "a pair that moved must be measured again";
+}
+
+TEST_F(PairMeterTest, DescribesAContactOnceAndNothingElse) {
+  add("a", 0.0);
+  const BodyId b = add("b", 0.9);
+  add("c", 2.0);  // 0.1 m from b
+  PairMeter meter = meterOf(0.2);
+  for (const int tick : {1, 2}) {
+    const auto found = measure(meter, tick);
+    ASSERT_EQ(found->pairs.size(), 2u);
+    EXPECT_EQ(found->pairs[0].contact.point, Eigen::Vector3d(0.45, 0, 0));
+    EXPECT_TRUE(found->pairs[1].contact.point.hasNaN());
+    EXPECT_EQ(phase_->described, 1) << "a pair that did not move is not described again";
+  }
+  scene_.place(b, at(0.8), std::chrono::milliseconds(3));
+  EXPECT_EQ(measure(meter, 3)->pairs[0].contact.point, Eigen::Vector3d(0.4, 0, 0));
+  EXPECT_EQ(phase_->described, 2);
+  phase_->fails = true;
+  scene_.place(b, at(0.7), std::chrono::milliseconds(4));
+  EXPECT_TRUE(measure(meter, 4)->pairs[0].contact.point.hasNaN());
+  EXPECT_EQ(phase_->described, 2) << "a failed measurement is not described";
 }
 
 /// Claim: the meter does not measure a pair that cannot have come near enough. This never makes it miss a pair.

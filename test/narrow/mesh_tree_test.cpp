@@ -225,6 +225,26 @@ TEST(MeshTree, MeetsEachPairOfTrianglesWithinReachOnce) {
   EXPECT_GT(most, 10u);
 }
 
+TEST(MeshTree, SupportIsAFarthestCorner) {
+  Random random(3);
+  for (int i = 0; i < 300; ++i) {
+    TriangleMesh mesh = randomMesh(random);
+    const double away = random.chance(0.3) ? 1000.0 : 1.0;
+    const Eigen::Vector3d shift(random.uniform(-away, away), random.uniform(-away, away), random.uniform(-away, away));
+    for (Eigen::Vector3d& vertex : mesh.vertices) vertex += shift;
+    const MeshTree tree(mesh);
+    for (int k = 0; k < 10; ++k) {
+      const Eigen::Vector3d direction(random.uniform(-1, 1), random.uniform(-1, 1),
+                                      k == 0 ? 0.0 : random.uniform(-1, 1));
+      double most = -kInfinity;
+      for (const auto& t : mesh.triangles) {
+        for (const std::uint32_t corner : t) most = std::max(most, direction.dot(mesh.vertices[corner] - shift));
+      }
+      ASSERT_NEAR(direction.dot(tree.support(direction) - shift), most, 1e-12 * away);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace test
 }  // namespace hgrid

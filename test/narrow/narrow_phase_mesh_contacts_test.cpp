@@ -5,6 +5,7 @@
 // contact.
 #include <gtest/gtest.h>
 
+#include "hgrid_proximity/geometry/oriented_box.h"
 #include "test/narrow/narrow_phase_judge.h"
 
 namespace hgrid {
@@ -115,6 +116,62 @@ TEST(NarrowPhaseContacts, OfAShapeInsideAMeshIsAPointOfTheShape) {
     EXPECT_TRUE(contacts[0].normal.hasNaN());
     EXPECT_TRUE(std::isnan(contacts[0].depth));
   }
+}
+
+Contact contactOf(const Case& placed) {
+  const auto first = narrowPhase().solidOf(placed.first_shape), second = narrowPhase().solidOf(placed.second_shape);
+  return narrowPhase().measureContact({*first, placed.world_from_first, placed.first_padding},
+                                      {*second, placed.world_from_second, placed.second_padding});
+}
+
+// The least depth of two boxes is known. That of boxes as meshes is a bound of it, which is not much larger.
+TEST(NarrowPhaseContact, OfBoxesHasTheDepthOfTheBoxesAndOfTheirMeshesHasABoundOfIt) {
+  Random random(1);
+  const Eigen::Vector3d size(0.3, 0.4, 0.5), other_size(0.2, 0.9, 0.4);
+  int contacts = 0;
+  double worst = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    Case placed{Shape::box(size), Shape::box(other_size), randomPose(random, 0.3), randomPose(random, 0.3), 0.0, 0.0};
+    if (!isContact(Trial(placed).measure().status)) continue;
+    ++contacts;
+    const double exact =
+        penetrationDepth(OrientedBox{placed.world_from_first, size}, OrientedBox{placed.world_from_second, other_size});
+    ASSERT_NEAR(contactOf(placed).depth, exact, 1e-6) << placed.text();
+    placed.first_shape = meshOf(boxMesh(size));
+    if (i % 2 == 0) placed.second_shape = meshOf(boxMesh(other_size));
+    const double bound = contactOf(placed).depth;
+    ASSERT_GE(bound, exact - 1e-6) << placed.text();
+    worst = std::max(worst, bound - exact);
+  }
+  EXPECT_LT(worst, 0.05);
+  EXPECT_GT(contacts, 50);
+}
+
+TEST(NarrowPhaseContact, OfAShapeInsideAMeshIsAPointOfTheShapeAndTheWayOut) {
+  Case placed{meshOf(boxMesh({1, 1, 1})), Shape::box({0.1, 0.1, 0.1}), Pose::Identity(), Pose::Identity(), 0.0, 0.0};
+  placed.world_from_first.translation() << 5, 0, 0;
+  placed.world_from_second.translation() << 5.2, 0, 0;
+  const Contact contact = contactOf(placed);
+  EXPECT_LE(distanceOf(placed.second(), contact.point).upper, 1e-9);
+  EXPECT_NEAR(contact.depth, 0.5 - 0.2 + 0.05, 1e-6);
+  EXPECT_TRUE(contact.normal.isApprox(Eigen::Vector3d::UnitX(), 1e-6)) << contact.normal.transpose();
+}
+
+// The extents of a box between two walls overlap with those of the walls in all directions, but the padding of the
+// box touches only one wall.
+TEST(NarrowPhaseContact, OfAPaddingThatTouchesAWallIsTheMoveAwayFromThisWall) {
+  const TriangleMesh wall = boxMesh({0.1, 1, 1});
+  TriangleMesh walls;
+  for (const double x : {-0.5, 0.5}) {
+    const auto begin = static_cast<std::uint32_t>(walls.vertices.size());
+    for (const Eigen::Vector3d& vertex : wall.vertices) walls.vertices.push_back(vertex + x * Eigen::Vector3d::UnitX());
+    for (const auto& t : wall.triangles) walls.triangles.push_back({begin + t[0], begin + t[1], begin + t[2]});
+  }
+  Case placed{meshOf(walls), meshOf(boxMesh({0.1, 0.1, 0.1})), Pose::Identity(), Pose::Identity(), 0.01, 0.03};
+  placed.world_from_second.translation() << 0.375, 0, 0;
+  const Contact contact = contactOf(placed);
+  EXPECT_NEAR(contact.depth, 0.015, 1e-6);
+  EXPECT_TRUE(contact.normal.isApprox(-Eigen::Vector3d::UnitX(), 1e-6)) << contact.normal.transpose();
 }
 
 }  // namespace

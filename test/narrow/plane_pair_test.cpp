@@ -125,6 +125,15 @@ TEST(PlanePair, ContactsAreThereExactlyIfTheShapesMeet) {
     ASSERT_EQ(found.front().normal, Eigen::Vector3d(c.plane.linear().col(2)));
     ASSERT_EQ(exchanged.front().normal, -found.front().normal);
     ASSERT_TRUE(found.size() == 1u || c.shape.kind() == ShapeKind::mesh);
+    const Contact whole = phase->measureContact(floor, other), swapped = phase->measureContact(other, floor);
+    ASSERT_NEAR(whole.depth, -c.exact, c.tolerance);
+    ASSERT_EQ(whole.normal, found.front().normal);
+    ASSERT_EQ(swapped.normal, -whole.normal);
+    ASSERT_EQ(swapped.point, whole.point);
+    const Pose at(Eigen::Translation3d(whole.point));
+    const PlacedSolid point{*phase->point(), at, 1e-6};
+    ASSERT_TRUE(isContact(phase->measure(point, floor, 0.0).status));
+    ASSERT_TRUE(isContact(phase->measure(point, other, 0.0).status));
   }
 }
 
@@ -154,6 +163,7 @@ TEST(PlanePair, TwoPlanesCountAsInContact) {
   EXPECT_EQ(phase->measure(low, high, kInfinity).status, Measure::contact);
   EXPECT_TRUE(std::isnan(phase->measure(low, high, kInfinity).depth));
   EXPECT_EQ(phase->contacts(low, high, 10).size(), 1u);
+  EXPECT_TRUE(phase->measureContact(low, high).point.hasNaN() && std::isnan(phase->measureContact(low, high).depth));
 }
 
 }  // namespace

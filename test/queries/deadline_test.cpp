@@ -97,6 +97,7 @@ class SlowNarrowPhase final : public NarrowPhase {
     found.distance = 0.0;
     return found;
   }
+  Contact measureContact(const PlacedSolid&, const PlacedSolid&) const override { return {}; }
   std::vector<Contact> contacts(const PlacedSolid&, const PlacedSolid&, std::size_t) const override { return {}; }
 
  private:

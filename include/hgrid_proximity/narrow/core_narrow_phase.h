@@ -19,8 +19,9 @@ namespace hgrid {
 /// - Two solids are always measured in the same order, in the frame of one of them. So the result does not depend on
 ///   the order of the arguments, and no precision is lost far from the origin.
 /// - The distance from a plane is that of the deepest point of the other shape. Depth and normal are always known.
-/// - Otherwise, depth, normal and points of a contact are known if the cores are apart or only touch. If the cores
-///   overlap, these values are NaN. makeFclNarrowPhase() finds these values in more cases.
+/// - Otherwise, measure() knows depth, normal and points of a contact if the cores are apart or only touch. If the
+///   cores overlap, these values are NaN. makeFclNarrowPhase() finds these values in more cases.
+/// - measureContact() compares how far both solids extend in a few dozen directions, if measure() knows no depth.
 std::shared_ptr<NarrowPhase> makeCoreNarrowPhase();
 
 }  // namespace hgrid

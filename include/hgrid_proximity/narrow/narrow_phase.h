@@ -48,14 +48,15 @@ struct Proximity {
   double depth = kUnknown;
 };
 
-/// One contact between a part of one solid and a part of another solid. The parts of a mesh are its triangles; a convex
-/// solid has one part. Values that are not known are NaN.
+/// Where two solids, or a part of one and a part of another, are in contact. The parts of a mesh are its triangles; a
+/// convex solid has one part. Values that are not known are NaN.
 struct Contact {
-  /// [m, world] A point that both padded parts have in common.
+  /// [m, world] A point that both padded solids have in common, to 1e-6 m.
   Eigen::Vector3d point = Eigen::Vector3d::Constant(Proximity::kUnknown);
-  /// Unit vector from the first part to the second.
+  /// Unit vector from the first solid to the second: the direction of the move that `depth` describes.
   Eigen::Vector3d normal = Eigen::Vector3d::Constant(Proximity::kUnknown);
-  /// [m] Penetration depth. Moving the second part this far along the normal separates the two parts.
+  /// [m] Upper bound of the penetration depth, >= 0. Moving the second solid this far along the normal, and 1e-6 m
+  /// farther, separates the two. A shorter move in this or another direction may separate them as well.
   double depth = Proximity::kUnknown;
 };
 
@@ -110,6 +111,17 @@ class NarrowPhase {
   /// @param up_to  [m] if the distance is larger than this, the result is `apart` with an infinite distance; a small
   /// value can be much faster
   virtual Proximity measure(const PlacedSolid& first, const PlacedSolid& second, double up_to) const = 0;
+
+  /// Describes where two solids are in contact, and how far one must be moved until they are not. Never throws, and
+  /// allocates no memory: after an error all values are NaN.
+  ///
+  /// The move separates the whole solids, also those of meshes. Its direction is the best of a few dozen. So for solids
+  /// that are not convex, the depth may be much larger than the penetration depth. Exceptions:
+  /// - Two planes have no point, normal and depth.
+  /// - Measure::containment_unknown: the point is one of the solid that may be inside the other.
+  /// If the caller exchanges the two solids, the normal changes its sign. All other values stay the same.
+  /// @param first, second  solids for which measure() returned a status that counts as contact, except Measure::failed
+  virtual Contact measureContact(const PlacedSolid& first, const PlacedSolid& second) const = 0;
 
   /// Lists the contacts of two solids that this narrow phase created, deepest first.
   ///

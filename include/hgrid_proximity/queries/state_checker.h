@@ -38,6 +38,9 @@ struct StateBatch {
 struct StateRequest {
   /// Whether to list all pairs of bodies in contact. If not, only one pair is listed.
   bool all_pairs = false;
+  /// Whether to describe the contacts of the listed pairs (StatePair::contact). Each takes up to three times as long as
+  /// measuring the same shapes while they are apart.
+  bool contacts = false;
   /// [m] If it is greater than 0: measure how far a state without contact is from contact, up to this distance.
   double clearance = 0.0;
   /// Whether to compute how the measured clearance changes with each variable of the batch.
@@ -135,8 +138,8 @@ struct StateCheckerOptions {
 ///
 /// Immutable. Any number of threads may call checkStates() and checkEdges() at the same time, each with a scratch
 /// object of its own. The answer for a state depends neither on the other states of its batch, nor on the thread, nor
-/// on the processor. Exception: shapes whose measurement fails count as contact, unless bounds of distances, which exist
-/// later, prove that they are apart.
+/// on the processor. Exception: shapes whose measurement fails count as contact, unless bounds of distances, which
+/// exist later, prove that they are apart.
 class StateChecker {
  public:
   /// Prepares the shapes of the robot and of the world. Takes time proportional to the number of shapes.

@@ -33,6 +33,8 @@ struct EdgeRequest {
   /// Whether the search of an edge ends at any contact. This is faster than finding the first contact. `free_until` may
   /// then be 0.
   bool any_contact = false;
+  /// Whether to describe the contact of each edge with the verdict hit (StatePair::contact).
+  bool contacts = false;
   /// When the search stops. The edges that are not finished get the verdict unknown (Unknown::budget), or hit if a
   /// contact was found. nullopt: no deadline.
   std::optional<std::chrono::steady_clock::time_point> deadline;

@@ -20,6 +20,9 @@ struct StatePair {
   /// narrow phase, the status is Measure::contact also if one shape is inside the other, and points, normal and depth
   /// are NaN. That does not happen with StateRequest::all_pairs or a clearance.
   Proximity proximity;
+  /// Only if it was requested (StateRequest::contacts, EdgeRequest::contacts) and the two are in contact; otherwise all
+  /// values are NaN. The second shape is a cell if the second body is a map or cloud.
+  Contact contact;
 };
 
 }  // namespace hgrid

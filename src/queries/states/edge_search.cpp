@@ -54,7 +54,7 @@ EdgeSearch::EdgeSearch(const CheckerParts& all, const StateBatch& batch, const s
       answers_(answers),
       values_(all.kinematics, all.robot, batch, memory),
       search_(*all.snapshot, *all.narrow_phase, all.robot, all.world, SearchGoal::all_near,
-              std::numeric_limits<double>::infinity(), memory),
+              std::numeric_limits<double>::infinity(), false, memory),
       doubt_(all.doubts.findAnywhere(!batch.world_from_root)) {
   memory.prepare(all.kinematics, all.robot);
 }
@@ -283,7 +283,7 @@ void EdgeSearch::use(std::size_t lane) {
   EdgeInWork& work = memory_.edges[lane];
   const double length = work.part.tip - work.part.begin;
   if (!search_.contacts(lane).empty()) {
-    useContact(work, search_.contacts(lane).front());
+    useContact(work, search_.contacts(lane).front(), search_.touching(lane));
   } else if (work.probed < work.probes) {
     ++work.probed;
   } else {
@@ -313,9 +313,10 @@ bool EdgeSearch::isDone(EdgeInWork& work) const {
 }
 
 /// Uses a contact in the middle of a part. What comes before it is examined next.
-void EdgeSearch::useContact(EdgeInWork& work, const StatePair& contact) const {
+void EdgeSearch::useContact(EdgeInWork& work, const StatePair& contact, const TouchingSolids& touching) const {
   EdgePart& part = work.part;
   work.contact = contact;
+  work.touching = touching;
   work.end = work.path > 0.0 ? 0.5 * (part.begin + part.tip) : part.begin;
   if (work.searches_all) {
     work.step = 0.5 * (work.end - work.begin);
@@ -370,6 +371,9 @@ void EdgeSearch::finish(std::size_t lane, bool in_time) {
     answer.verdict = Verdict::hit;
     answer.at = work.end;
     answers_.pairs.push_back(*work.contact);
+    if (request_.contacts) {  // only now, because the search may find several contacts on an edge
+      answers_.pairs.back().contact = work.touching.measure(*all_.narrow_phase, work.contact->proximity.status);
+    }
   } else if (!in_time) {
     answer.because = Unknown::budget;
   } else if (doubt_ || work.doubt) {

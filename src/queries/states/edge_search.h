@@ -34,7 +34,7 @@ class EdgeSearch {
   void findPairReaches(unsigned lanes);
   Four reachOfCluster(std::size_t cluster) const;
   void use(std::size_t lane);
-  void useContact(EdgeInWork& work, const StatePair& contact) const;
+  void useContact(EdgeInWork& work, const StatePair& contact, const TouchingSolids& touching) const;
   EdgePart keep(EdgeInWork& work, std::size_t lane, bool in_doubt) const;
   void divide(EdgeInWork& work, std::size_t lane, std::optional<std::uint32_t> doubt) const;
   bool isShort(const EdgeInWork& work, double length) const;

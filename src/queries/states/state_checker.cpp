@@ -93,7 +93,7 @@ void StateChecker::checkStates(const StateBatch& batch, const StateRequest& requ
   answers.pairs.clear();
   answers.gradients.assign(request.gradients ? values.size() * memory.columns.size() : 0, Proximity::kUnknown);
   StateSearch search(*all.snapshot, *all.narrow_phase, all.robot, all.world, goalOf(request), request.clearance,
-                     memory);
+                     request.contacts, memory);
   for (std::size_t first = 0; first < values.size(); first += 4) {
     const bool is_first = first == 0;
     const std::size_t count = std::min<std::size_t>(4, values.size() - first);

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "maps/map_gap.h"
+#include "narrow/measured_contact.h"
 #include "queries/states/four_boxes.h"
 
 namespace hgrid {
@@ -33,6 +34,12 @@ bool isNearer(const NearShapes& a, const NearShapes& b) {
 
 }  // namespace
 
+Contact TouchingSolids::measure(const NarrowPhase& narrow_phase, Measure status) const {
+  if (first.solid == nullptr || second.solid == nullptr) return {};
+  return measuredContact(narrow_phase, {*first.solid, first.world_from_shape, first.padding},
+                         {*second.solid, second.world_from_shape, second.padding}, status);
+}
+
 void StateMemory::prepare(const Kinematics& kinematics, const RobotShapes& robot) {
   const std::size_t shapes = robot.shapes().size(), variables = kinematics.variables().size();
   placed.resize(shapes);
@@ -48,13 +55,15 @@ void StateMemory::prepare(const Kinematics& kinematics, const RobotShapes& robot
 }
 
 StateSearch::StateSearch(const Snapshot& snapshot, const NarrowPhase& narrow_phase, const RobotShapes& robot,
-                         const WorldShapes& world, SearchGoal goal, double farthest, StateMemory& scratch)
+                         const WorldShapes& world, SearchGoal goal, double farthest, bool describes,
+                         StateMemory& scratch)
     : snapshot_(snapshot),
       narrow_phase_(narrow_phase),
       robot_(robot),
       world_(world),
       goal_(goal),
       farthest_(farthest),
+      describes_(describes),
       scratch_(scratch),
       robots_{{{snapshot, narrow_phase, robot, scratch.groups.in_world, scratch.placed, 0},
                {snapshot, narrow_phase, robot, scratch.groups.in_world, scratch.placed, 1},
@@ -263,7 +272,7 @@ void StateSearch::consider(std::size_t lane, const NearShapes& near) {
     StatePair pair = pairOf(near);
     pair.proximity.status = Measure::contact;
     pair.proximity.distance = 0.0;
-    take(lane, near, pair, 0.0);
+    take(lane, near, pair, otherOf(lane, near), 0.0);
   } else {
     scratch_.near[lane].push_back(near);
   }
@@ -370,29 +379,46 @@ void StateSearch::measure(std::size_t lane, const NearShapes& near) {
     return;
   }
   if (near.with == With::map) return measureMap(lane, near, limit);
-  const RobotInState& robot = robotIn(lane);
+  const TouchingSolids::Placed other = otherOf(lane, near);
   StatePair pair = pairOf(near);
+  pair.proximity = robotIn(lane).measure(near.own, other.solid, other.world_from_shape, other.padding, limit);
   if (near.with == With::self) {
-    const BodyShape& other = *robot_.shapes()[near.other].what;
-    pair.proximity = robot.measure(near.own, other.solid.get(), robot.worldFromShape(near.other), other.padding, limit);
     const std::uint32_t mesh = robot_.selfPairs()[near.pair].mesh;
     if (mesh != Structure::kNone && !isContact(pair.proximity.status)) robot_.shapes()[mesh].clearance.countApart();
-  } else if (near.with == With::shape) {
-    pair.proximity = robot.measureBody(near.own, pair.second, pair.second_shape, limit);
-  } else {
-    const PlacedPlane& plane = world_.planes()[near.other];
-    pair.proximity = robot.measure(near.own, narrow_phase_.plane().get(), plane.world_from_plane, plane.padding, limit);
   }
-  take(lane, near, pair, limit);
+  take(lane, near, pair, other, limit);
 }
 
-/// Uses the result of a measurement. @param limit  [m] larger distances do not count
-void StateSearch::take(std::size_t lane, const NearShapes& near, const StatePair& pair, double limit) {
+/// Returns the solid of the second shape, which is not a cell of a map.
+TouchingSolids::Placed StateSearch::otherOf(std::size_t lane, const NearShapes& near) const {
+  if (near.with == With::self) {
+    const BodyShape& other = *robot_.shapes()[near.other].what;
+    return {other.solid.get(), robotIn(lane).worldFromShape(near.other), other.padding};
+  }
+  if (near.with == With::plane) {
+    const PlacedPlane& plane = world_.planes()[near.other];
+    return {narrow_phase_.plane().get(), plane.world_from_plane, plane.padding};
+  }
+  const WorldShape& shape = world_.shapes()[near.other];
+  const BodyShape& other = snapshot_.structure().bodies[shape.body].shapes[shape.shape];
+  return {other.solid.get(), snapshot_.poses()[shape.body].world_from_body * other.body_from_shape, other.padding};
+}
+
+/// Uses the result of a measurement.
+/// @param other  the second solid
+/// @param limit  [m] larger distances do not count
+void StateSearch::take(std::size_t lane, const NearShapes& near, const StatePair& pair,
+                       const TouchingSolids::Placed& other, double limit) {
   const bool measured = pair.proximity.status != Measure::not_measured;
   const double distance = measured ? pair.proximity.distance : std::max(0.0, static_cast<double>(near.gap));
   const bool is_first = near_pair_[lane].first == Structure::kNone;
   if (isContact(pair.proximity.status) || distance <= 0.0) {
+    const BodyShape& own = *robot_.shapes()[near.own].what;
+    touching_[lane] = {{own.solid.get(), robotIn(lane).worldFromShape(near.own), own.padding}, other};
     scratch_.pairs[lane].push_back(pair);
+    if (describes_) {
+      scratch_.pairs[lane].back().contact = touching_[lane].measure(narrow_phase_, pair.proximity.status);
+    }
     limit_[lane] = 0.0;
     if (goal_ != SearchGoal::all_contacts) open_ &= ~(1u << lane);
   } else if (distance < limit || (distance == limit && is_first)) {
@@ -444,11 +470,11 @@ void StateSearch::measureMap(std::size_t lane, const NearShapes& near, double li
     if (static_cast<double>(apart.along_faces) > at.limit) return at.limit;
     if (at.limit == 0.0 && apart.along_edges > 0.0f) return at.limit;
     StatePair pair = search.pairOf(at.near);
+    const TouchingSolids::Placed cube{context.map.cells.cubes[voxel.level].get(), world_from_cube, 0.0};
     pair.proximity =
-        search.robotIn(context.lane)
-            .measure(at.near.own, context.map.cells.cubes[voxel.level].get(), world_from_cube, 0.0, at.limit);
+        search.robotIn(context.lane).measure(at.near.own, cube.solid, world_from_cube, cube.padding, at.limit);
     const std::size_t contacts = search.contacts(context.lane).size(), kept = search.kept(context.lane).size();
-    search.take(context.lane, at.near, pair, at.limit);
+    search.take(context.lane, at.near, pair, cube, at.limit);
     if (search.contacts(context.lane).size() > contacts) return kNoFurther;
     at.limit = search.kept(context.lane).size() > kept ? 0.0 : std::min(at.limit, search.limit_[context.lane]);
     return at.limit;

@@ -34,6 +34,20 @@ struct EdgePart {
   bool in_doubt = false;             // whether a StateDoubt may apply in this part
 };
 
+/// Two solids in contact: one of the robot in a state, and another one. Valid as long as the snapshot.
+struct TouchingSolids {
+  /// A solid at a pose. Null: not known.
+  struct Placed {
+    const Solid* solid = nullptr;
+    Pose world_from_shape = Pose::Identity();
+    double padding = 0.0;  // [m]
+  };
+  Placed first, second;
+
+  /// Describes their contact; all NaN if a solid is not known or if measuring it failed. @param status  of the two
+  Contact measure(const NarrowPhase& narrow_phase, Measure status) const;
+};
+
 /// An edge that is being examined, in one of four lanes.
 struct EdgeInWork {
   std::size_t edge = 0;  // index of the edge
@@ -44,6 +58,7 @@ struct EdgeInWork {
   double step = 1.0;                   // length of the next part that is searched for everything
   double uncertain_from = 2.0;         // beginning of the first part that could not be proved free; 2: there is none
   std::optional<StatePair> contact;    // the pair in contact at `end`
+  TouchingSolids touching;             // the solids of this pair
   std::optional<StatePair> near;       // the pair at `uncertain_from`
   std::optional<std::uint32_t> doubt;  // or the doubt that applies there
   EdgePart part{};                     // what is being examined
@@ -108,8 +123,9 @@ enum class SearchGoal {
 class StateSearch {
  public:
   /// @param farthest  [m] larger distances never matter; StateMemory has smaller limits for single shapes
+  /// @param describes  whether StatePair::contact of all contacts is needed
   StateSearch(const Snapshot& snapshot, const NarrowPhase& narrow_phase, const RobotShapes& robot,
-              const WorldShapes& world, SearchGoal goal, double farthest, StateMemory& scratch);
+              const WorldShapes& world, SearchGoal goal, double farthest, bool describes, StateMemory& scratch);
 
   /// Begins with four states. Their rigid groups and reaches are in the scratch memory.
   /// @param open   bit i: whether state i is examined
@@ -122,6 +138,8 @@ class StateSearch {
 
   /// Returns the contacts that were found in a state, sorted by bodies. A pair of bodies may occur more than once.
   const std::vector<StatePair>& contacts(std::size_t lane) const { return scratch_.pairs[lane]; }
+  /// Returns the solids of the contact that was found last in a state.
+  const TouchingSolids& touching(std::size_t lane) const { return touching_[lane]; }
   /// Returns whether shapes within reach were found that are not in contact, and none in contact.
   bool hasNear(std::size_t lane) const { return contacts(lane).empty() && near_pair_[lane].first != Structure::kNone; }
   /// Returns these shapes, see SearchGoal. With SearchGoal::all_near, the nearest of those that were measured.
@@ -151,7 +169,9 @@ class StateSearch {
   StatePair pairOf(const NearShapes& near) const;
   void measure(std::size_t lane, const NearShapes& near);
   void measureMap(std::size_t lane, const NearShapes& near, double limit);
-  void take(std::size_t lane, const NearShapes& near, const StatePair& pair, double limit);
+  TouchingSolids::Placed otherOf(std::size_t lane, const NearShapes& near) const;
+  void take(std::size_t lane, const NearShapes& near, const StatePair& pair, const TouchingSolids::Placed& other,
+            double limit);
   void sortContacts(std::size_t lane);
   bool isOpen(std::size_t lane) const { return (open_ >> lane & 1u) != 0; }
 
@@ -161,12 +181,14 @@ class StateSearch {
   const WorldShapes& world_;
   const SearchGoal goal_;
   const double farthest_;
+  const bool describes_;
   StateMemory& scratch_;
   const std::array<RobotInState, 4> robots_;
   unsigned open_ = 0;              // bit i: whether more pairs of state i must be examined
   std::array<double, 4> limit_{};  // [m] larger distances do not count any more
   std::array<StatePair, 4> near_pair_;
   std::array<double, 4> near_distance_{};
+  std::array<TouchingSolids, 4> touching_;
 };
 
 }  // namespace hgrid

@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // The node with a narrow phase that throws exceptions for tests. The parameter ~fault names the function that throws;
-// ~fault_kind is the kind of the exception. While ~fault is "hang", measurements do not end, and ~hanging is the number of
-// those that have begun to hang. If the environment
-// variable HGRID_MOST_THREADS is set, the node can create only so many threads, not counting those of roscpp. The exit
-// code is 2 if the node destroys its parts while threads still use them.
+// ~fault_kind is the kind of the exception. While ~fault is "hang", measurements do not end, and ~hanging is the number
+// of those that have begun to hang. If the environment variable HGRID_MOST_THREADS is set, the node can create only so
+// many threads, not counting those of roscpp. The exit code is 2 if the node destroys its parts while threads still use
+// them.
 #include <dlfcn.h>
 #include <pthread.h>
 #include <ros/ros.h>
@@ -84,6 +84,9 @@ class FaultyPhase final : public NarrowPhase {
     while (isFault("hang") && ros::ok()) {
     }
     return sound_->measure(first, second, up_to);
+  }
+  Contact measureContact(const PlacedSolid& first, const PlacedSolid& second) const override {
+    return sound_->measureContact(first, second);
   }
   std::vector<Contact> contacts(const PlacedSolid& first, const PlacedSolid& second, std::size_t most) const override {
     throwIf("contacts");

@@ -56,11 +56,12 @@ void compare(StateOracle& oracle, const EdgeOracle& edge, const Pose& root, cons
     ++seen.hits;
     oracle.surfaces_only = false;
     const Truth truth = oracle.of(edge.at(answer.at), root);
-    oracle.surfaces_only = true;
     ASSERT_EQ(answer.pairs, 1u);
     const StatePair& pair = answers.pairs[answer.first_pair];
     EXPECT_EQ(truth.contacts.count(std::minmax(pair.first, pair.second)), 1u) << answer.at;
     EXPECT_LE(answer.free_until, answer.at);
+    oracle.expectContact(pair, edge.at(answer.at), root);
+    oracle.surfaces_only = true;
   } else {
     ++seen.close;
     EXPECT_EQ(answer.because, Unknown::tolerance);
@@ -87,8 +88,11 @@ TEST(EdgeOracle, NoClearEdgeHasAContactAndEachHitIsOne) {
     const RandomEdges edges(random, checker, world.model, 12);
     StateScratch scratch;
     EdgeAnswers answers;
-    checker.checkEdges(edges.batch, edges.edges, {}, scratch, answers);
+    EdgeRequest first;
+    first.contacts = true;
+    checker.checkEdges(edges.batch, edges.edges, first, scratch, answers);
     EdgeRequest any;
+    any.contacts = true;
     any.any_contact = true;
     EdgeAnswers others;
     checker.checkEdges(edges.batch, edges.edges, any, scratch, others);
@@ -111,6 +115,7 @@ TEST(EdgeOracle, NoClearEdgeHasAContactAndEachHitIsOne) {
         const StatePair& pair = others.pairs[others.edges[i].first_pair];
         const Truth truth = oracle.of(edges.oracle(i).at(others.edges[i].at), plan.world_from_root);
         EXPECT_EQ(truth.contacts.count(std::minmax(pair.first, pair.second)), 1u) << others.edges[i].at;
+        oracle.expectContact(pair, edges.oracle(i).at(others.edges[i].at), plan.world_from_root);
         oracle.surfaces_only = true;
       }
       if (HasFailure()) return;

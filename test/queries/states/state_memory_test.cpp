@@ -27,7 +27,7 @@ TEST(StateMemory, LaterBatchesAllocateNothing) {
     StateScratch scratch;
     StateAnswers answers;
     std::vector<StateRequest> requests(3);
-    requests[1].all_pairs = true;
+    requests[1].all_pairs = requests[1].contacts = true;
     requests[2].clearance = 0.1;
     for (const StateRequest& request : requests) checker.checkStates(batch, request, scratch, answers);
     const std::size_t before = allocatedBytes();
@@ -36,9 +36,11 @@ TEST(StateMemory, LaterBatchesAllocateNothing) {
     std::vector<StateEdge> edges;
     for (std::uint32_t i = 0; i + 1 < 50; ++i) edges.push_back({i, i + 1});
     EdgeAnswers edge_answers;
-    checker.checkEdges(batch, edges, {}, scratch, edge_answers);
+    EdgeRequest edge_request;
+    edge_request.contacts = true;
+    checker.checkEdges(batch, edges, edge_request, scratch, edge_answers);
     const std::size_t before_edges = allocatedBytes();
-    checker.checkEdges(batch, edges, {}, scratch, edge_answers);
+    checker.checkEdges(batch, edges, edge_request, scratch, edge_answers);
     EXPECT_EQ(allocatedBytes() - before_edges, 0u) << "edges";
     for (const StateAnswer& answer : answers.states) hits += answer.verdict == Verdict::hit ? 1 : 0;
   }

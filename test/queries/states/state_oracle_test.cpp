@@ -74,6 +74,7 @@ void play(Random& random, const StateWorld& world, const Pose& world_from_root, 
   StateScratch scratch;
   StateAnswers first, all, nearest;
   StateRequest request;
+  request.contacts = true;
   checker.checkStates(batch, request, scratch, first);
   request.all_pairs = true;
   checker.checkStates(batch, request, scratch, all);
@@ -87,6 +88,17 @@ void play(Random& random, const StateWorld& world, const Pose& world_from_root, 
     const bool beyond = JointOracle(world.model, checker.kinematics(), states[i]).isBeyondLimits();
     EXPECT_EQ(first.states[i].beyond_limits, beyond);
     compare(truth, first, all, nearest, i);
+    for (const StateAnswers* answers : {&first, &all, &nearest}) {
+      const StateAnswer& answer = answers->states[i];
+      for (std::uint32_t k = answer.first_pair; k < answer.first_pair + answer.pairs; ++k) {
+        const StatePair& pair = answers->pairs[k];
+        if (answer.verdict == Verdict::hit) {
+          oracle.expectContact(pair, states[i], world_from_root);
+        } else {
+          EXPECT_TRUE(pair.contact.point.hasNaN());
+        }
+      }
+    }
     seen.add(*world.snapshot, truth, beyond);
     if (::testing::Test::HasFailure()) return;
   }

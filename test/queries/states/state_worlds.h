@@ -156,23 +156,14 @@ class StateOracle {
   Truth of(const std::vector<double>& state, const Pose& world_from_root,
            std::uint32_t ignored = Structure::kNone) const {
     const BodyList& bodies = snapshot_.structure().bodies;
-    const Kinematics kinematics = world_.kinematics();
-    const JointOracle joints(world_.model, kinematics, state);
-    std::vector<Pose> poses;
     std::vector<bool> own(bodies.size());
-    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-      poses.push_back(snapshot_.poses()[i].world_from_body);
-      const int link = bodies[i].kind == BodyKind::link ? int(bodies[i].link) : world_.model.find(bodies[i].frame);
-      if (link < 0 || (bodies[i].kind != BodyKind::link && bodies[i].mobility == Mobility::fixed)) continue;
-      own[i] = true;
-      poses[i] = world_from_root * joints.rootFromLink(link) * bodies[i].frame_from_body;
-    }
+    const std::vector<Pose> poses = posesIn(state, world_from_root, own);
     Truth truth;
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
       for (std::uint32_t k = 0; k < bodies.size(); ++k) {
         if (!own[i] || (own[k] && k <= i) || i == ignored || k == ignored) continue;
         if (snapshot_.structure().filter.allowed(i, k)) continue;
-        const double distance = distanceOf(i, poses[i], k, poses[k]);
+        const double distance = distanceOf(bodies[i], poses[i], k, poses[k]);
         if (distance <= 0.0) truth.contacts.insert(std::minmax(i, k));
         truth.distance = std::min(truth.distance, distance);
       }
@@ -180,8 +171,43 @@ class StateOracle {
     return truth;
   }
 
+  /// Expects that the point of a contact lies in both bodies of a pair, and that its other values are known. Does
+  /// nothing if one of the bodies may be inside an open mesh, since the point may then lie in only one of them.
+  void expectContact(const StatePair& pair, const std::vector<double>& state, const Pose& world_from_root) const {
+    if (pair.proximity.status == Measure::containment_unknown) return;
+    std::vector<bool> own(snapshot_.structure().bodies.size());
+    const std::vector<Pose> poses = posesIn(state, world_from_root, own);
+    ASSERT_TRUE(pair.contact.point.allFinite());
+    Body point;
+    point.shapes.push_back(shapeOf(Shape::sphere(1.0)));
+    point.shapes.front().solid = narrowPhase()->point();
+    const Pose there(Eigen::Translation3d(pair.contact.point));
+    for (const std::uint32_t body : {pair.first, pair.second}) {
+      EXPECT_LE(distanceOf(point, there, body, poses[body]), 1e-6);
+    }
+    EXPECT_NEAR(pair.contact.normal.norm(), 1.0, 1e-9);
+    EXPECT_GE(pair.contact.depth, 0.0);
+  }
+
  private:
-  double distanceOf(std::uint32_t i, const Pose& world_from_i, std::uint32_t k, const Pose& world_from_k) const {
+  /// Returns where all bodies are. @param own  for each body: becomes true if the joints move it
+  std::vector<Pose> posesIn(const std::vector<double>& state, const Pose& world_from_root,
+                            std::vector<bool>& own) const {
+    const BodyList& bodies = snapshot_.structure().bodies;
+    const Kinematics kinematics = world_.kinematics();
+    const JointOracle joints(world_.model, kinematics, state);
+    std::vector<Pose> poses;
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+      poses.push_back(snapshot_.poses()[i].world_from_body);
+      const int link = bodies[i].kind == BodyKind::link ? int(bodies[i].link) : world_.model.find(bodies[i].frame);
+      if (link < 0 || (bodies[i].kind != BodyKind::link && bodies[i].mobility == Mobility::fixed)) continue;
+      own[i] = true;
+      poses[i] = world_from_root * joints.rootFromLink(link) * bodies[i].frame_from_body;
+    }
+    return poses;
+  }
+
+  double distanceOf(const Body& i, const Pose& world_from_i, std::uint32_t k, const Pose& world_from_k) const {
     double least = std::numeric_limits<double>::infinity();
     const auto add = [&](const BodyShape& a, const Solid& solid, const Pose& world_from_solid, double padding) {
       const Pose world_from_a = world_from_i * a.body_from_shape;
@@ -192,7 +218,7 @@ class StateOracle {
     };
     const BodyList& bodies = snapshot_.structure().bodies;
     const auto cells = snapshot_.cellsOf(k);
-    for (const BodyShape& a : bodies[i].shapes) {
+    for (const BodyShape& a : i.shapes) {
       for (const BodyShape& b : bodies[k].shapes) add(a, *b.solid, world_from_k * b.body_from_shape, b.padding);
       if (!cells) continue;
       for (const Voxel& voxel : cells->grid->voxels()) {
