@@ -265,13 +265,20 @@ class Proximity:
         return Field(self._services[FieldArrays](request, 10.0))  # the longest time limit of this service
 
     def check_states(
-        self, joint_names: Iterable[str], positions, max_clearance: float = 0.0, gradients: bool = False, **options
+        self,
+        joint_names: Iterable[str],
+        positions,
+        max_clearance: float = 0.0,
+        gradients: bool = False,
+        contacts: bool = False,
+        **options,
     ) -> States:
         """Would the robot touch anything if its joints stood at these positions?
 
         @param positions  [rad or m] array of n rows, one for each state, with one number for each joint
         @param max_clearance  [m] also measure how far the robot is from contact, up to this distance; 0: only verdicts
         @param gradients  True: also compute how each clearance changes with each joint
+        @param contacts  True: also describe where each state that is hit is in contact
 
         Options of check_states() and check_edges():
             robot: name of the robot; otherwise the robot that has these joints
@@ -286,7 +293,9 @@ class Proximity:
         """
         joint_names = list(joint_names)
         rows = _rows("positions", positions, joint_names)
-        request = srv.CheckStatesRequest(positions=rows, max_clearance=max_clearance, gradients=gradients)
+        request = srv.CheckStatesRequest(
+            positions=rows, max_clearance=max_clearance, gradients=gradients, contacts=contacts
+        )
         return States(self._check(srv.CheckStates, request, joint_names, **options))
 
     def check_edges(

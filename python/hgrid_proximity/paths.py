@@ -13,7 +13,7 @@ class GuardedPath:
     clear: the robot touches nothing within ~guard/ahead seconds, if all robots with paths follow them and everything else
         stays where it is
     hit: it will touch something; `first` and `second` are the names of the bodies, `point` [m, world frame] is where they
-        meet, and `at` [rospy.Time] is when
+        meet, and `at` [rospy.Time] is when; `response.normal` and `response.depth` describe a move that separates them
     unknown: it may touch something; `reason` says why nobody knows
     free_for: [s] for this long from now on, the robot is proved to touch nothing
     response: the whole response of the service

@@ -48,6 +48,28 @@ class CheckStates(unittest.TestCase):
         self.assertEqual(found.response.names, ["obstacle/post", "obstacle/wall", "robot/arm", "robot/hand"])
         self.assertEqual((found.response.texts, len(found.clearance)), ([], 0))
 
+    # Claim: the contact of two spheres is described as their centers and radii tell.
+    def test_contacts_are_described_if_asked_for(self):
+        rows = [[0, 0.5], [TO_POST - 0.1, 0.5]]
+        self.assertEqual([len(array) for array in self._contacts(self.states(rows))], [0, 0, 0])
+        points, normals, depths = self._contacts(self.states(rows, contacts=True))
+        self.assertTrue(numpy.isnan(points[0]).all() and numpy.isnan(normals[0]).all() and numpy.isnan(depths[0]))
+        self._expect_arm_at_post(TO_POST - 0.1, points[1], normals[1], depths[1])
+        edges = self.edges([[0, 0.5]], [[TO_POST, 0.5]])
+        points, normals, depths = self._contacts(edges)
+        self._expect_arm_at_post(edges.at[0] * TO_POST, points[0], normals[0], depths[0])
+
+    @staticmethod
+    def _contacts(answer):
+        return answer.points, answer.normals, answer.depths
+
+    def _expect_arm_at_post(self, angle, point, normal, depth):
+        center, post = 0.5 * numpy.array([math.cos(angle), math.sin(angle), 0]), numpy.array([0, 0.5, 0])
+        gap = numpy.linalg.norm(post - center)
+        self.assertLess(max(numpy.linalg.norm(point - center), numpy.linalg.norm(point - post)), 0.1 + 1e-6)
+        self.assertLess(numpy.linalg.norm(normal - (post - center) / gap), 1e-6)
+        self.assertAlmostEqual(depth, 0.2 - gap, delta=1e-6)
+
     # Claim: for random states, verdicts and clearances are those of the spheres, computed here.
     def test_verdicts_and_clearances_are_those_of_spheres(self):
         generator = numpy.random.RandomState(1)

@@ -18,6 +18,7 @@ Time duration(double seconds) { return std::chrono::duration_cast<Time>(std::chr
 
 std::string EdgeWalk::advance(const StateChecker& checker, std::size_t& first) {
   request_.any_contact = true;
+  request_.contacts = false;
   for (std::size_t count = kFewestEdges; first + 1 < times_.size(); count = std::min(2 * count, kMostEdges)) {
     check(checker, first, count);
     for (const EdgeAnswer& edge : found_.edges) {
@@ -40,6 +41,7 @@ PathAnswer EdgeWalk::clearUntil(std::size_t end) const {
 
 void EdgeWalk::extend(PathAnswer& answer, const StateChecker& checker, std::size_t first) {
   request_.any_contact = false;
+  request_.contacts = true;
   std::size_t count = 1;  // 1: in most cases, the first edge has the conflict
   for (; first + 1 < times_.size() && !answer.conflict; count = std::min(2 * count, kMostEdges)) {
     check(checker, first, count);
@@ -73,8 +75,7 @@ void EdgeWalk::add(PathAnswer& answer, const StateChecker& checker, std::size_t 
   const StatePair& pair = found_.pairs[edge.first_pair];
   const BodyList& bodies = checker.snapshot().structure().bodies;
   answer.conflict =
-      PathConflict{bodies[pair.first].name, bodies[pair.second].name,
-                   0.5 * (pair.proximity.on_first + pair.proximity.on_second), begin + duration(edge.at * length)};
+      PathConflict{bodies[pair.first].name, bodies[pair.second].name, pair.contact, begin + duration(edge.at * length)};
 }
 
 }  // namespace hgrid

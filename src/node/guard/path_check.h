@@ -20,7 +20,7 @@ namespace hgrid {
 /// Two bodies that will touch each other if a robot follows its path.
 struct PathConflict {
   std::string first, second;  ///< names of the bodies; `first` is of the robot
-  Eigen::Vector3d point;      ///< [m, world] where they meet; NaN if it is not known
+  Contact contact;            ///< where they meet
   Time at{0};                 ///< [ROS time] when they meet
 };
 

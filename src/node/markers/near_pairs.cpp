@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "node/messages/pair_points.h"
+
 namespace hgrid {
 namespace {
 
@@ -50,12 +52,13 @@ std::optional<DrawnPair> byBoxes(const Snapshot& snapshot, const NearPair& pair)
   return drawn;
 }
 
-DrawnPair byShapes(const Proximity& proximity) {
+DrawnPair byShapes(const PairDistance& pair) {
+  const PairPoints points = pointsOf(pair);
   DrawnPair drawn;
-  drawn.on_first = proximity.on_first;
-  drawn.on_second = proximity.on_second;
+  drawn.on_first = points.on_first;
+  drawn.on_second = points.on_second;
   drawn.measured = true;
-  if (proximity.status != Measure::apart) drawn.status = name(proximity.status);
+  if (pair.proximity.status != Measure::apart) drawn.status = name(pair.proximity.status);
   return drawn;
 }
 
@@ -74,7 +77,8 @@ std::vector<Candidate> candidatesOf(const Snapshot& snapshot, const PairDistance
       const Proximity& proximity = found->second->proximity;
       const bool known = !std::isnan(proximity.distance);
       candidate.distance = isContact(proximity.status) ? 0.0 : known ? proximity.distance : found->second->lower_bound;
-      if (proximity.on_first.allFinite() && proximity.on_second.allFinite()) candidate.measured = found->second;
+      const PairPoints points = pointsOf(*found->second);
+      if (points.on_first.allFinite() && points.on_second.allFinite()) candidate.measured = found->second;
     } else if (distances != nullptr) {
       candidate.distance = std::max(pair.gap, report + snapshot.growthOf(pair.first, pair.second));
       if (candidate.distance >= pair.margin) continue;
@@ -112,7 +116,7 @@ NearPairs nearPairs(const Tick& tick, const PairDistances* distances) {
   if (candidates.size() > kMostPairs) candidates.resize(kMostPairs);
   for (const Candidate& candidate : candidates) {
     std::optional<DrawnPair> drawn =
-        candidate.measured != nullptr ? byShapes(candidate.measured->proximity) : byBoxes(snapshot, *candidate.pair);
+        candidate.measured != nullptr ? byShapes(*candidate.measured) : byBoxes(snapshot, *candidate.pair);
     if (!drawn) continue;
     drawn->first = candidate.pair->first;
     drawn->second = candidate.pair->second;

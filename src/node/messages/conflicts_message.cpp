@@ -21,7 +21,9 @@ msg::Conflicts conflictsMessage(const Tick& tick, const RobotPaths& paths, const
     message.robot.push_back(static_cast<std::uint32_t>(i));
     message.first.push_back(conflict.first);
     message.second.push_back(conflict.second);
-    message.point.push_back(toPoint(conflict.point));
+    message.point.push_back(toPoint(conflict.contact.point));
+    message.normal.push_back(toVector(conflict.contact.normal));
+    message.depth.push_back(conflict.contact.depth);
     message.at.push_back(toRos(conflict.at));
   }
   return message;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "node/messages/pair_points.h"
+
 namespace hgrid {
 namespace {
 
@@ -48,10 +50,12 @@ boost::shared_ptr<msg::Distances> distancesMessage(const Tick& tick, const msg::
     message->lower_bound.push_back(pair.lower_bound);
     message->gap.push_back(pair.gap);
     message->measured.push_back(toRos(pair.measured));
-    message->point_on_first.push_back(toPoint(pair.proximity.on_first));
-    message->point_on_second.push_back(toPoint(pair.proximity.on_second));
-    message->normal.push_back(toVector(pair.proximity.normal));
-    message->depth.push_back(pair.proximity.depth);
+    const PairPoints points = pointsOf(pair);
+    message->point_on_first.push_back(toPoint(points.on_first));
+    message->point_on_second.push_back(toPoint(points.on_second));
+    message->contact_point.push_back(toPoint(pair.contact.point));
+    message->normal.push_back(toVector(points.normal));
+    message->depth.push_back(pair.contact.depth);
     message->approach.push_back(static_cast<std::uint8_t>(pair.approach));
     message->closing_speed.push_back(pair.closing_speed);
     message->time_to_contact.push_back(pair.time_to_contact);

@@ -11,6 +11,7 @@
 
 #include "hgrid_proximity/distances/pair_meter.h"
 #include "hgrid_proximity/explain/decided_rule.h"
+#include "node/messages/pair_points.h"
 
 namespace hgrid {
 namespace {
@@ -53,11 +54,12 @@ class EventMeter {
                    ? Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(budget))
                    : Clock::time_point::max()) {}
 
-  /// Returns the distance and the nearest points of the two bodies; all NaN if a body is gone or no time is left.
-  Proximity measure(const PairEvent& event) const {
-    if (hasLostABody(event, snapshot_) || Clock::now() >= until_) return Proximity{};
+  /// Returns the distance, the nearest points and the contact of the two bodies; all NaN if a body is gone or no time
+  /// is left.
+  PairDistance measure(const PairEvent& event) const {
+    if (hasLostABody(event, snapshot_) || Clock::now() >= until_) return PairDistance{};
     constexpr double kFar = std::numeric_limits<double>::infinity();
-    return measurePair(narrow_phase_, snapshot_, event.first, event.second, kFar).proximity;
+    return measurePair(narrow_phase_, snapshot_, event.first, event.second, kFar);
   }
 
  private:
@@ -86,7 +88,7 @@ void addState(const PairEvent& event, const Snapshot& snapshot, msg::Events& mes
   message.rule.push_back(rule.origin == Origin::none ? std::string() : textOf(rule));
 }
 
-void add(const PairEvent& event, const Snapshot& snapshot, const Proximity& measured, msg::Events& message) {
+void add(const PairEvent& event, const Snapshot& snapshot, const PairDistance& measured, msg::Events& message) {
   const Structure& structure = snapshot.structureOf(event);
   const auto indexOf = [&](std::uint32_t body) {
     const std::string& name = structure.bodies[body].name;
@@ -100,9 +102,13 @@ void add(const PairEvent& event, const Snapshot& snapshot, const Proximity& meas
   message.second.push_back(indexOf(event.second));
   message.since.push_back(toRos(event.since));
   message.gap.push_back(event.gap);
-  message.distance.push_back(measured.distance);
-  message.point_on_first.push_back(toPoint(measured.on_first));
-  message.point_on_second.push_back(toPoint(measured.on_second));
+  const PairPoints points = pointsOf(measured);
+  message.distance.push_back(measured.proximity.distance);
+  message.point_on_first.push_back(toPoint(points.on_first));
+  message.point_on_second.push_back(toPoint(points.on_second));
+  message.contact_point.push_back(toPoint(measured.contact.point));
+  message.normal.push_back(toVector(points.normal));
+  message.depth.push_back(measured.contact.depth);
   addState(event, snapshot, message);
 }
 

@@ -8,6 +8,6 @@ namespace hgrid {
 
 /// Version of the messages and services, sent as Status.interface_version. Raise it by one when any of them changes.
 /// The test interface_version_unit_test fails if this was forgotten.
-inline constexpr std::uint32_t kInterfaceVersion = 10;
+inline constexpr std::uint32_t kInterfaceVersion = 11;
 
 }  // namespace hgrid

@@ -82,10 +82,8 @@ ContactInformation contactOf(const StatePair& pair, const StateChecker& checker,
   contact.header.stamp = toRos(checker.snapshot().stamp());
   std::tie(contact.contact_body_1, contact.body_type_1) = moveitBody(checker, pair.first);
   std::tie(contact.contact_body_2, contact.body_type_2) = moveitBody(checker, pair.second);
-  const Proximity& found = pair.proximity;
-  if (found.on_first.allFinite() && found.on_second.allFinite()) {
-    contact.position = toPoint(0.5 * (found.on_first + found.on_second));
-  }
+  const Contact& found = pair.contact;
+  if (found.point.allFinite()) contact.position = toPoint(found.point);
   if (found.normal.allFinite()) contact.normal = toVector(found.normal);
   if (std::isfinite(found.depth)) contact.depth = found.depth;
   return contact;
@@ -118,7 +116,7 @@ StateValidity stateValidity(const GetStateValidity::Request& request, const Answ
   const StateChecker checker(tick.get()->snapshot, *joints.kinematics, asked.robot.name, std::move(narrow_phase),
                              options);
   StateRequest all;
-  all.all_pairs = true;
+  all.all_pairs = all.contacts = true;
   StateScratch scratch;
   StateAnswers answers;
   checker.checkStates(asked.batch, all, scratch, answers);

@@ -37,7 +37,9 @@ void GuardService::answer(ServiceCall<msg::Guard>& call) {
   if (!answer.conflict) return;
   response.first = answer.conflict->first;
   response.second = answer.conflict->second;
-  response.point = toPoint(answer.conflict->point);
+  response.point = toPoint(answer.conflict->contact.point);
+  response.normal = toVector(answer.conflict->contact.normal);
+  response.depth = answer.conflict->contact.depth;
   response.at = toRos(answer.conflict->at);
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -78,6 +77,12 @@ class AnswerWriter {
     response_.first.push_back(pair == nullptr ? kNoBody : pair->first);
     response_.second.push_back(pair == nullptr ? kNoBody : pair->second);
   }
+  /// Adds point, normal and depth of an answer.
+  void addContact(const Contact& contact) {
+    response_.point.push_back(toPoint(contact.point));
+    response_.normal.push_back(toVector(contact.normal));
+    response_.depth.push_back(contact.depth);
+  }
   /// Replaces the indices of bodies by indices into `names`.
   void finish() {
     if (!response_.texts.empty()) response_.texts.resize(response_.codes.size());
@@ -90,11 +95,14 @@ class AnswerWriter {
   Response& response_;
 };
 
-/// Returns where two shapes meet; NaN if that is not known.
-geometry_msgs::Point placeOf(const StatePair* pair) {
-  Eigen::Vector3d place = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  if (pair != nullptr) place = 0.5 * (pair->proximity.on_first + pair->proximity.on_second);
-  return toPoint(place);
+/// Returns the contact of a pair of an edge. If the two only come too near to each other, the depth is not known, and
+/// the point is the middle between them.
+Contact contactOf(const StatePair& pair) {
+  if (isContact(pair.proximity.status)) return pair.contact;
+  Contact contact;
+  contact.point = 0.5 * (pair.proximity.on_first + pair.proximity.on_second);
+  contact.normal = pair.proximity.normal;
+  return contact;
 }
 
 }  // namespace
@@ -132,6 +140,7 @@ void StateServices::answer(ServiceCall<msg::CheckStates>& call) {
                                           text(kFarthest) + " m");
   }
   StateRequest asked;
+  asked.contacts = request.contacts;
   asked.clearance = request.max_clearance;
   asked.gradients = request.gradients;
   asked.deadline = end;
@@ -144,7 +153,9 @@ void StateServices::answer(ServiceCall<msg::CheckStates>& call) {
     const StateAnswer& state = answers.states[i];
     writer.add(state.verdict, state.because, state.refused, state.beyond_limits,
                state.because == Unknown::no ? "" : question.checker->sentenceOf(question.batch, answers, i));
-    writer.addPair(state.pairs == 0 ? nullptr : &answers.pairs[state.first_pair]);
+    const StatePair* const pair = state.pairs == 0 ? nullptr : &answers.pairs[state.first_pair];
+    writer.addPair(pair);
+    if (asked.contacts) writer.addContact(pair == nullptr ? Contact{} : pair->contact);
     if (asked.clearance > 0.0) response.clearance.push_back(state.clearance);
     if (response.verdicts.back() != static_cast<std::uint8_t>(Verdict::unknown)) continue;
     // What nobody sees may be nearer than what was measured.
@@ -180,6 +191,7 @@ void StateServices::answer(ServiceCall<msg::CheckEdges>& call) {
   EdgeRequest asked;
   if (request.tolerance != 0.0) asked.tolerance = request.tolerance;
   asked.any_contact = request.any_contact;
+  asked.contacts = true;
   asked.deadline = end;
   thread_local StateScratch scratch;  // its memory is used again by the next request
   EdgeAnswers answers;
@@ -194,7 +206,7 @@ void StateServices::answer(ServiceCall<msg::CheckEdges>& call) {
     writer.addPair(pair);
     response.free_until.push_back(doubt.because == Unknown::no ? edge.free_until : 0.0);
     response.at.push_back(edge.at);
-    response.point.push_back(placeOf(pair));
+    writer.addContact(pair == nullptr ? Contact{} : contactOf(*pair));
   }
   writer.finish();
   response.lease = leases_.keep(request.lease, call.tick.get());

@@ -197,7 +197,10 @@ TEST(CheckPaths, AgreesWithSamplesOfTheMotions) {
       EXPECT_LE(at, first);
       EXPECT_GE(answer.free_for, at - 0.1);
       EXPECT_LE(std::abs(arms.gapAt(i, paths, conflict.at)), kDoubt);
-      EXPECT_LE(std::min((conflict.point - hand).norm(), (conflict.point - arms.bases[i]).norm()), kRadius + kDoubt);
+      const Eigen::Vector3d& point = conflict.contact.point;
+      EXPECT_LE(std::min((point - hand).norm(), (point - arms.bases[i]).norm()), kRadius + kDoubt);
+      EXPECT_NEAR(conflict.contact.normal.norm(), 1.0, 1e-9);
+      EXPECT_GE(conflict.contact.depth, 0.0);
     }
   }
   EXPECT_GT(hits, rounds / 2);

@@ -31,8 +31,8 @@ void expectWellFormed(const msg::Events& message, std::size_t most) {
   for (const std::size_t size :
        {message.kind.size(), message.cause.size(), message.first.size(), message.second.size(), message.since.size(),
         message.gap.size(), message.distance.size(), message.margin.size(), message.point_on_first.size(),
-        message.point_on_second.size(), message.first_state.size(), message.second_state.size(),
-        message.rule_origin.size(), message.rule.size()}) {
+        message.point_on_second.size(), message.contact_point.size(), message.normal.size(), message.depth.size(),
+        message.first_state.size(), message.second_state.size(), message.rule_origin.size(), message.rule.size()}) {
     EXPECT_EQ(size, count);
   }
   std::set<std::uint32_t> used;
@@ -48,6 +48,8 @@ void expectWellFormed(const msg::Events& message, std::size_t most) {
     if (message.kind[i] == msg::EventKind::BEGIN) {
       EXPECT_LE(message.gap[i], message.margin[i]);
     }
+    EXPECT_EQ(std::isnan(message.contact_point[i].x), message.distance[i] != 0.0) << "known exactly in contact";
+    EXPECT_EQ(std::isnan(message.depth[i]), message.distance[i] != 0.0);
     if (message.distance[i] > 0.0) {
       EXPECT_NEAR(std::abs(message.point_on_first[i].x - message.point_on_second[i].x), message.distance[i], 1e-6);
     }

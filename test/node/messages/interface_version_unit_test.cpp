@@ -65,7 +65,7 @@ namespace {
 
 namespace msg = ::hgrid_proximity;
 
-constexpr std::uint32_t kPinnedVersion = 10;  // interface version of the MD5 sums below
+constexpr std::uint32_t kPinnedVersion = 11;  // interface version of the MD5 sums below
 
 /// A message or service file, its MD5 sum, and the MD5 sum that it must have in this interface version.
 struct Pin {
@@ -90,10 +90,10 @@ const std::vector<Pin>& pins() {
       message<msg::BodyStatus>("BodyStatus", "bd9a63f6ebcd25ae08ba8cfb73a999f9"),
       message<msg::ClockOffset>("ClockOffset", "6b175ebc36db775a914a87e14972cd62"),
       message<msg::Code>("Code", "fbde2bf6467e5dfdc09bc3548840c269"),
-      message<msg::Conflicts>("Conflicts", "aaaebd48d4d1a1f1ca0e176745ac3569"),
+      message<msg::Conflicts>("Conflicts", "a33e6e762757a2241cdc171f67af87c7"),
       message<msg::Counter>("Counter", "a8105c30af3c5e6c9a9f5ea2544709f5"),
-      message<msg::Distances>("Distances", "ee11cec8eb6f75ba5b9e186d2ef697e7"),
-      message<msg::Events>("Events", "2d3c7209582b0e49fec6219c5906fe1a"),
+      message<msg::Distances>("Distances", "8c66db7c3acd42ca3204ef533290e1a8"),
+      message<msg::Events>("Events", "f867822512a8b744126c01237c5f2901"),
       message<msg::Gauge>("Gauge", "d8512f27253c0f65f928a67c329cd658"),
       message<msg::Hit>("Hit", "b27873b5bc9c5faff607ee93c2082a9f"),
       message<msg::Obstacle>("Obstacle", "5608eedc0bae1cab90887c5e86e8f978"),
@@ -114,12 +114,12 @@ const std::vector<Pin>& pins() {
       service<msg::DistanceField>("DistanceField", "bfd4a4272ef20a442d7dbe30be5e8e47"),
       service<msg::ExplainPair>("ExplainPair", "457360a42821f6b55053adaf3d496f5e"),
       service<msg::GetAllowed>("GetAllowed", "9fed1122aeeb905b4c7f36a169ae06d9"),
-      service<msg::Guard>("Guard", "c873b91c43a10144f9226b16c37f40a0"),
+      service<msg::Guard>("Guard", "da13f334588c579b93b7bc7410ae0796"),
       service<msg::LoadOctomap>("LoadOctomap", "e4f109c1d659ff38a9cdcd1bef0eef96"),
       service<msg::QueryBatch>("QueryBatch", "ff849843809738b3532005ab891c379e"),
       service<msg::QueryBox>("QueryBox", "11811cca3f76b2e5b5c5193d3c3b97df"),
-      service<msg::CheckEdges>("CheckEdges", "5a67fbafce225e8c940a523c4998e2e5"),
-      service<msg::CheckStates>("CheckStates", "39a86f1c80ea4b9471018c646a2100a8"),
+      service<msg::CheckEdges>("CheckEdges", "96016d09d43a8f7349c287eebf78e6cf"),
+      service<msg::CheckStates>("CheckStates", "a145347a472bac90a4fa7e9a6217e2d2"),
       service<msg::QueryNearest>("QueryNearest", "4b5dee0806d6834dea30463f0e89a73d"),
       service<msg::QuerySegment>("QuerySegment", "59a89bd9d550c80ecdbad0dc9d089262"),
       service<msg::QueryShape>("QueryShape", "1c515b40df3e57bf697fe27ec588270d"),
