@@ -92,6 +92,7 @@ set(HGRID_CORE_SOURCES
   src/narrow/depth_bound.cpp
   src/narrow/distance_lattice.cpp
   src/narrow/enclosure.cpp
+  src/narrow/face_directions.cpp
   src/narrow/gjk.cpp
   src/narrow/inner_spheres.cpp
   src/narrow/mesh_hull.cpp

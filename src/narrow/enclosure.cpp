@@ -4,15 +4,37 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace hgrid {
 namespace {
 
 using Index = std::uint32_t;
 
-/// Returns a number for each vertex. Vertices at the same position get the same number, since many files repeat a
-/// vertex for every triangle that uses it.
+constexpr double kMaybeInside = 0.25;  // an open mesh may enclose a point with at least this winding number
+// A closed mesh winds around a point 0 times or a whole number of times, so rounding cannot matter at one half.
+constexpr double kInsideOnce = 0.5, kInsideTwice = 1.5;
+constexpr int kLines = 64;      // that are followed from a point
+constexpr int kLinesOut = 8;    // if so many of them lead out, the point is not walled in
+constexpr int kDoubtful = 24;   // if so many of them contradict, the directions of an open mesh are wrong around there
+constexpr double kThin = 1e-5;  // walls that are thinner than this share of the size of the mesh are only surfaces
+
+/// Returns unit vectors that are spread evenly, on a spiral. They lie in no plane of symmetry of usual meshes. Those
+/// that follow each other are far apart.
+std::vector<Eigen::Vector3d> directions() {
+  std::vector<Eigen::Vector3d> result;
+  for (int k = 0; k < kLines; ++k) {
+    const int i = 27 * k % kLines;
+    const double z = 1.0 - (2.0 * i + 1.0) / kLines, around = i * M_PI * (3.0 - std::sqrt(5.0)) + 0.1;
+    const double radius = std::sqrt(1.0 - z * z);
+    result.emplace_back(radius * std::cos(around), radius * std::sin(around), z);
+  }
+  return result;
+}
+
+/// Returns a number for each vertex. Vertices at the same position get the same number.
 std::vector<Index> weldedNumbers(const std::vector<Eigen::Vector3d>& vertices) {
   std::vector<Index> order(vertices.size());
   std::iota(order.begin(), order.end(), 0);
@@ -29,8 +51,14 @@ std::vector<Index> weldedNumbers(const std::vector<Eigen::Vector3d>& vertices) {
   return numbers;
 }
 
-/// Returns the triangles of a mesh with the numbers of weldedNumbers(). Leaves out triangles with two equal corners,
-/// since they are lines, which enclose nothing.
+/// Returns the root of `i` in a union-find forest, and shortens the path to it.
+Index rootOf(std::vector<Index>& parent, Index i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+}  // namespace
+
 std::vector<WindingTree::Corners> weldedTriangles(const TriangleMesh& mesh) {
   const std::vector<Index> numbers = weldedNumbers(mesh.vertices);
   std::vector<WindingTree::Corners> triangles;
@@ -41,19 +69,56 @@ std::vector<WindingTree::Corners> weldedTriangles(const TriangleMesh& mesh) {
   return triangles;
 }
 
-/// Returns the root of `i` in a union-find forest, and shortens the path to it.
-Index rootOf(std::vector<Index>& parent, Index i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-}  // namespace
-
 Enclosure::Enclosure(const TriangleMesh& mesh) : Enclosure(mesh, weldedTriangles(mesh)) {}
 
-Enclosure::Enclosure(const TriangleMesh& mesh, const std::vector<WindingTree::Corners>& triangles)
-    : winding_(mesh.vertices, triangles) {
-  std::vector<Index> parent(mesh.vertices.size());
+Enclosure::Enclosure(const TriangleMesh& mesh, const std::vector<WindingTree::Corners>& triangles) {
+  for (const auto& triangle : triangles) {
+    for (const Index i : triangle) box_.extend(mesh.vertices[i]);
+  }
+  FaceDirections faces = faceDirections(mesh.vertices, triangles);
+  corrected_ = !faces.corrected.empty();
+  for (auto* surface : {&faces.given, &faces.corrected}) {
+    if (!surface->empty()) surfaces_.emplace_back(mesh.vertices, std::move(*surface));
+  }
+  const auto isClosed = [](const WindingTree& surface) { return surface.closed(); };
+  closed_ = !surfaces_.empty() && std::all_of(surfaces_.begin(), surfaces_.end(), isClosed);
+  simple_ = closed_ && faces.simple;
+  findParts(mesh.vertices, triangles);
+}
+
+Inside Enclosure::holds(const Eigen::Vector3d& point) const {
+  if (!boxHolds(point)) return Inside::no;
+  double winding = 0.0;  // how often the surfaces wind around the point, in whatever direction
+  for (const WindingTree& surface : surfaces_) winding += std::abs(surface.windingNumber(point));
+  if (winding >= (closed_ ? kInsideOnce : kMaybeInside)) {
+    // Of two surfaces around each other, the inner one may be a cavity, if its direction had to be corrected.
+    return closed_ && !(corrected_ && winding >= kInsideTwice) ? Inside::yes : Inside::unknown;
+  }
+  return !simple() && isWalledIn(point) ? Inside::unknown : Inside::no;
+}
+
+bool Enclosure::isWalledIn(const Eigen::Vector3d& point) const {
+  static const std::vector<Eigen::Vector3d> kDirections = directions();
+  int out = 0, doubtful = 0;
+  bool front = false, back = false;
+  for (const Eigen::Vector3d& direction : kDirections) {
+    LineView view;
+    view.thin = kThin * box_.sizes().norm();
+    for (const WindingTree& surface : surfaces_) surface.look(point, direction, view);
+    if (view.unsure) continue;
+    front = front || view.front;
+    back = back || view.back;
+    doubtful += (view.front && view.back) || view.sum != 0;
+    out += !view.front && !view.back;
+    if (out == kLinesOut) return false;
+  }
+  // Around a point outside of a mesh whose triangles agree, only lines through holes have another sum than 0.
+  return closed_ ? front && back : doubtful >= kDoubtful;
+}
+
+void Enclosure::findParts(const std::vector<Eigen::Vector3d>& vertices,
+                          const std::vector<WindingTree::Corners>& triangles) {
+  std::vector<Index> parent(vertices.size());
   std::iota(parent.begin(), parent.end(), 0);
   for (const auto& t : triangles) {
     const Index root = rootOf(parent, t[0]);
@@ -66,11 +131,11 @@ Enclosure::Enclosure(const TriangleMesh& mesh, const std::vector<WindingTree::Co
     if (part_of[root] == parts_.max_size()) {
       part_of[root] = parts_.size();
       parts_.emplace_back();
-      parts_.back().fill(mesh.vertices[root]);
+      parts_.back().fill(vertices[root]);
     }
     Part& part = parts_[part_of[root]];
     for (const Index i : triangle) {
-      const Eigen::Vector3d& vertex = mesh.vertices[i];
+      const Eigen::Vector3d& vertex = vertices[i];
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
         const auto least = static_cast<std::size_t>(axis), most = least + 3;
         if (vertex[axis] < part[least][axis]) part[least] = vertex;

@@ -136,7 +136,7 @@ std::vector<Sphere> innerSpheresOf(const Shape& shape, const Solid& solid) {
 
 std::vector<Sphere> innerSpheresOf(const MeshTree& tree, const Enclosure& enclosure, const Vector& low,
                                    const Vector& high) {
-  if (!enclosure.closed()) return spreadCorners(tree.triangles());
+  if (!enclosure.simple()) return spreadCorners(tree.triangles());
   const Vector size = high - low;
   const double step = std::cbrt(size.prod() / kPoints);
   if (!(step > 0.0)) return {};
@@ -150,7 +150,7 @@ std::vector<Sphere> innerSpheresOf(const MeshTree& tree, const Enclosure& enclos
       for (int z = 0; z < count[2]; ++z) {
         const Vector share((x + 0.5) / count[0], (y + 0.5) / count[1], (z + 0.5) / count[2]);
         const Vector center = low + share.cwiseProduct(size);
-        if (std::abs(enclosure.windingNumber(center)) < kLeastWinding) continue;
+        if (enclosure.holds(center) != Inside::yes) continue;
         const CoreGap gap = tree.gapTo(point, Pose(Eigen::Translation3d(center)), size.norm());
         if (gap.lower > 0.0) spheres.push_back({center, gap.lower});
       }

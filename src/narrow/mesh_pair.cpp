@@ -13,8 +13,6 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr double kMaybeInside = 0.25;  // an open mesh may enclose a point with at least this winding number
-
 bool isMesh(const Side& side) { return side.solid.kind() == ShapeKind::mesh; }
 const MeshSolid& meshOf(const Side& side) { return static_cast<const MeshSolid&>(side.solid); }
 const ConvexSolid& convexOf(const Side& side) { return static_cast<const ConvexSolid&>(side.solid); }
@@ -51,16 +49,17 @@ Enclosed enclosedBy(const Side& outer, const Side& inner, const Pose& outer_from
   result.crossing = inner.around - outer.around;  // the padding of the outer solid moves its surface away
   if (!isMesh(outer)) return result;              // the gap to a filled convex solid would have been 0
   const Enclosure& enclosure = meshOf(outer).enclosure();
-  const double least = enclosure.closed() ? kLeastWinding : kMaybeInside;
-  const bool inside = anyPart(inner, [&](const Vector* begin, const Vector* end) {
+  anyPart(inner, [&](const Vector* begin, const Vector* end) {
     const auto in_box = [&](const Vector& point) { return enclosure.boxHolds(outer_from_inner * point); };
     result.point = outer_from_inner * *begin;
     if (!std::all_of(begin, end, in_box)) return false;
     const DistanceLattice* const lattice = meshOf(outer).lattice();
     if (lattice != nullptr && lattice->isOutside(result.point)) return false;
-    return std::abs(enclosure.windingNumber(result.point)) >= least;
+    const Inside inside = enclosure.holds(result.point);
+    if (inside == Inside::yes) result.status = Measure::contained;
+    if (inside == Inside::unknown) result.status = Measure::containment_unknown;
+    return inside != Inside::no;
   });
-  if (inside) result.status = enclosure.closed() ? Measure::contained : Measure::containment_unknown;
   return result;
 }
 

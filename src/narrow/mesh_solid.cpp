@@ -17,7 +17,7 @@ constexpr std::uint32_t kWorthLattice = 300;
 }  // namespace
 
 void PreparedMesh::countApart() const {
-  if (!enclosure.closed() || apart_.load(std::memory_order_relaxed) > kWorthLattice) return;
+  if (!enclosure.simple() || apart_.load(std::memory_order_relaxed) > kWorthLattice) return;
   if (apart_.fetch_add(1, std::memory_order_relaxed) != kWorthLattice) return;
   try {
     made_ = std::make_unique<const DistanceLattice>(tree.triangles());

@@ -26,8 +26,8 @@ struct PreparedMesh {
   std::shared_ptr<const TriangleMesh> source;  // kept, so that no other mesh gets its address
   /// Returns spheres inside the mesh; any thread may call this.
   const std::vector<Sphere>& innerSpheres() const;
-  /// Returns bounds of distances from the mesh; null if it is not closed, or until countApart() makes them. Any thread
-  /// may call this.
+  /// Returns bounds of distances from the mesh; null if it is not Enclosure::simple(), or until countApart() makes
+  /// them. Any thread may call this.
   const DistanceLattice* lattice() const { return lattice_.load(std::memory_order_acquire); }
   /// Counts a measurement of the mesh that found no contact. One of the calls, after some hundreds, makes lattice().
   /// This call takes milliseconds longer; meanwhile other threads go on without. Any thread may call this.

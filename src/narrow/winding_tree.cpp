@@ -43,6 +43,48 @@ double halfAngle(const Vector& point, const Vector& first, const Vector& second,
   return std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
+constexpr double kGrazes = 1e-12;  // a line this close to an edge, as a share of the lengths, may be on either side
+
+/// Adds a triangle to the view along a line. @param relative  its corners, relative to the start of the line
+void lookAt(const std::array<Vector, 3>& relative, const Vector& direction, LineView& view) {
+  bool left = false, right = false, grazes = false;  // on which sides of the edges the line passes
+  double across = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector &from = relative[i], &to = relative[(i + 1) % 3];
+    const double side = direction.dot(from.cross(to));
+    across += side;
+    const double least = kGrazes * from.norm() * to.norm();
+    left = left || side > least;
+    right = right || side < -least;
+    grazes = grazes || std::abs(side) <= least;
+  }
+  if (left && right) return;
+  if (grazes) {
+    view.unsure = true;
+    return;
+  }
+  const double distance = relative[0].dot((relative[1] - relative[0]).cross(relative[2] - relative[0])) / across;
+  if (!(distance > 0.0)) return;
+  view.sum += across > 0.0 ? 1 : -1;
+  if (distance > view.distance + view.thin) return;
+  if (distance < view.distance - view.thin) view.front = view.back = false;
+  view.distance = std::min(view.distance, distance);
+  (across > 0.0 ? view.back : view.front) = true;
+}
+
+/// Whether a line from a point may meet a box that is `more` [m] larger on each side.
+/// @param per_length  1 / the components of the direction
+bool mayMeet(const Vector& low, const Vector& high, double more, const Vector& point, const Vector& per_length) {
+  double begin = 0.0, end = std::numeric_limits<double>::infinity();
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double a = (low[axis] - more - point[axis]) * per_length[axis];
+    const double b = (high[axis] + more - point[axis]) * per_length[axis];
+    begin = std::max(begin, std::min(a, b));
+    end = std::min(end, std::max(a, b));
+  }
+  return begin <= end;
+}
+
 }  // namespace
 
 class WindingTree::Builder {
@@ -136,6 +178,25 @@ WindingTree::WindingTree(std::vector<Eigen::Vector3d> vertices, std::vector<Corn
 
 double WindingTree::windingNumber(const Eigen::Vector3d& point) const {
   return nodes_.empty() ? 0.0 : halfAngles(0, point) / (2.0 * M_PI);
+}
+
+void WindingTree::look(const Vector& point, const Vector& direction, LineView& view) const {
+  if (!nodes_.empty()) look(0, point, direction, direction.cwiseInverse(), view);
+}
+
+void WindingTree::look(std::size_t number, const Vector& point, const Vector& direction, const Vector& per_length,
+                       LineView& view) const {
+  const Node& node = nodes_[number];
+  if (!mayMeet(node.low, node.high, view.thin, point, per_length)) return;
+  if (node.second_child != 0) {
+    look(number + 1, point, direction, per_length, view);
+    look(node.second_child, point, direction, per_length, view);
+    return;
+  }
+  for (std::uint32_t i = node.triangles.begin; i < node.triangles.end; ++i) {
+    const auto& [a, b, c] = triangles_[i];
+    lookAt({vertices_[a] - point, vertices_[b] - point, vertices_[c] - point}, direction, view);
+  }
 }
 
 double WindingTree::halfAngles(std::size_t number, const Eigen::Vector3d& point) const {

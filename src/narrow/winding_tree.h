@@ -5,14 +5,20 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
 namespace hgrid {
 
-/// Least winding number of a point inside a closed mesh. A closed mesh winds around a point 0 times or a whole number
-/// of times, so rounding cannot matter at one half.
-inline constexpr double kLeastWinding = 0.5;
+/// What a straight line from a point meets.
+struct LineView {
+  double thin = 0.0;                                          ///< [m] surfaces that are this near to each other are one
+  double distance = std::numeric_limits<double>::infinity();  ///< [m] to the first surface; infinite: there is none
+  bool front = false, back = false;                           ///< which sides of triangles are seen at this distance
+  int sum = 0;          ///< number of all triangles met from behind, minus those met from the front
+  bool unsure = false;  ///< the line touches the border of a triangle within the rounding error
+};
 
 /// Computes how often the surface of a mesh winds around a point, without visiting all triangles. Immutable.
 ///
@@ -34,9 +40,10 @@ class WindingTree {
 
   /// Whether each edge of a triangle has a matching edge of opposite direction in another triangle.
   bool closed() const { return closed_; }
-  /// Whether a point lies in the bounding box of the triangles. A point outside the box is not enclosed.
-  bool boxHolds(const Eigen::Vector3d& point) const { return !nodes_.empty() && nodes_.front().holds(point); }
   double windingNumber(const Eigen::Vector3d& point) const;
+  /// Follows a line from a point in a direction, a unit vector along no axis. Adds the triangles that it meets to
+  /// `view`.
+  void look(const Eigen::Vector3d& point, const Eigen::Vector3d& direction, LineView& view) const;
 
  private:
   class Builder;
@@ -57,6 +64,8 @@ class WindingTree {
 
   /// Returns the sum of half of the solid angles of the triangles below a node.
   double halfAngles(std::size_t node, const Eigen::Vector3d& point) const;
+  void look(std::size_t node, const Eigen::Vector3d& point, const Eigen::Vector3d& direction,
+            const Eigen::Vector3d& per_length, LineView& view) const;
 
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<Corners> triangles_;

@@ -22,9 +22,7 @@ struct TestedMesh {
       for (const Eigen::Vector3d& corner : triangle) box.extend(corner);
     }
   }
-  bool isInside(const Eigen::Vector3d& point) const {
-    return std::abs(prepared.enclosure.windingNumber(point)) >= kLeastWinding;
-  }
+  bool isInside(const Eigen::Vector3d& point) const { return prepared.enclosure.holds(point) == Inside::yes; }
   /// Returns the distance from the mesh and the space that it encloses.
   double distanceOf(const Eigen::Vector3d& point) const {
     const ConvexSolid solid(ConvexCore::point(), {});
@@ -52,7 +50,7 @@ TEST(DistanceLattice, GivesLowerBoundsThatAreNotMuchTooLow) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const TestedMesh mesh(randomClosedMesh(random));
-    ASSERT_TRUE(mesh.prepared.enclosure.closed());
+    ASSERT_TRUE(mesh.prepared.enclosure.simple());
     const DistanceLattice lattice(mesh.prepared.tree.triangles());
     double missing = 0.0, points = 0.0;  // [edges] sum of the differences, and number of points
     for (int i = 0; i < 100; ++i) {
@@ -140,7 +138,7 @@ TEST(DistanceLattice, OfStrangeMeshesIsRight) {
   Random random(1);
   for (const TriangleMesh& shape : meshes) {
     const TestedMesh mesh(shape);
-    ASSERT_TRUE(mesh.prepared.enclosure.closed());
+    ASSERT_TRUE(mesh.prepared.enclosure.simple());
     const DistanceLattice lattice(mesh.prepared.tree.triangles());
     for (int i = 0; i < 200; ++i) {
       const Eigen::Vector3d point = mesh.randomPoint(random, 0.3);
@@ -157,14 +155,22 @@ TEST(DistanceLattice, OfStrangeMeshesIsRight) {
 TEST(DistanceLattice, IsMadeWhenAClosedMeshWasOftenMeasuredInVain) {
   const PreparedMesh closed(std::make_shared<const TriangleMesh>(trayMesh({1, 1, 1}, 0.1)));
   const PreparedMesh open(std::make_shared<const TriangleMesh>(without(ballMesh(1), 1)));
+  const PreparedMesh two_sided(std::make_shared<const TriangleMesh>(twoSided(ballMesh(1))));
+  TriangleMesh sheet = boxMesh({1, 1, 1});
+  sheet.triangles.resize(10);
+  const PreparedMesh open_two_sided(std::make_shared<const TriangleMesh>(twoSided(sheet)));
   for (int i = 0; i < 100; ++i) closed.countApart();
   EXPECT_EQ(closed.lattice(), nullptr);
   for (int i = 0; i < 10000; ++i) {
     closed.countApart();
     open.countApart();
+    two_sided.countApart();
+    open_two_sided.countApart();
   }
   EXPECT_NE(closed.lattice(), nullptr);
   EXPECT_EQ(open.lattice(), nullptr) << "an open mesh encloses no certain space";
+  EXPECT_NE(two_sided.lattice(), nullptr);
+  EXPECT_EQ(open_two_sided.lattice(), nullptr) << "the answers must not depend on the number of measurements";
 }
 
 }  // namespace

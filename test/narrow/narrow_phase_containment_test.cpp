@@ -119,6 +119,41 @@ TEST_P(Containment, TheSideThatATriangleFacesDoesNotMatter) {
   }
 }
 
+// Some programs write each face for both sides, or turn some faces around. The inside is the same.
+TEST_P(Containment, TheDirectionsAndCopiesOfFacesDoNotMatter) {
+  Random random(11);
+  for (const auto& [what, vessel] : vessels()) {
+    for (int i = 0; i < 12; ++i) {
+      SCOPED_TRACE(what + ", " + std::to_string(i));
+      const Shape outer = meshOf(i == 0 ? twoSided(vessel) : disordered(random, vessel));
+      const Shape inner = randomSolid(random, GetParam(), kSmall);
+      const Pose world_from_outer = randomPose(random, 5.0);
+      const Case placed = placedIn(outer, inner, world_from_outer, randomPose(random, 0.3));
+      const Trial trial(placed);
+      const Proximity answer = trial.measure();
+      ASSERT_EQ(unsound(answer), "") << placed.text();
+      ASSERT_EQ(answer.status, Measure::contained) << placed.text();
+      ASSERT_TRUE(isSameInOtherOrder(placed, answer, trial.measureSwapped())) << placed.text();
+      Pose beside = randomPose(random, 0.3);
+      beside.translation()[random.below(3)] += 2.5;
+      const Case placed_beside = placedIn(outer, inner, world_from_outer, beside);
+      ASSERT_EQ(Trial(placed_beside).measure().status, Measure::apart) << placed_beside.text();
+    }
+  }
+}
+
+// A mesh prepares bounds of distances after some hundreds of measurements without contact.
+TEST(TwoSidedFaces, EncloseTheSameAfterManyMeasurements) {
+  const Shape outer = meshOf(twoSided(boxMesh({1, 1, 1}))), inner = Shape::sphere(0.05);
+  Pose pose = Pose::Identity();
+  const Case in_middle{outer, inner, Pose::Identity(), pose, 0.0, 0.0};
+  pose.translation() << 0.6, 0.6, 0.0;
+  const Case outside{outer, inner, Pose::Identity(), pose, 0.0, 0.0};
+  const Trial middle(in_middle), beside(outside);
+  for (int i = 0; i < 400; ++i) ASSERT_EQ(beside.measure().status, Measure::apart);
+  EXPECT_EQ(middle.measure().status, Measure::contained);
+}
+
 /// The center of the sphere is 0.25 m below the surface of the box.
 TEST(Surfaces, ThatTouchOrCrossAreInContactWhereverTheCentersAre) {
   const Pose sphere_pose(Eigen::Translation3d(0.25, 0, 0));

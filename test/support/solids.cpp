@@ -112,6 +112,35 @@ TriangleMesh unwelded(const TriangleMesh& mesh) {
   return result;
 }
 
+TriangleMesh twoSided(const TriangleMesh& mesh) {
+  TriangleMesh result = mesh;
+  for (const auto& [a, b, c] : mesh.triangles) result.triangles.push_back({a, c, b});
+  return result;
+}
+
+TriangleMesh disordered(Random& random, const TriangleMesh& mesh) {
+  const double turned = random.chance(0.3) ? 0.0 : random.uniform(0, 1), twice = random.uniform(0, 1);
+  TriangleMesh result{mesh.vertices, {}};
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const int times = random.chance(twice) ? random.between(2, 3) : 1;
+    for (int i = 0; i < times; ++i) {
+      result.triangles.push_back({a, b, c});
+      if (random.chance(turned)) std::swap(result.triangles.back()[1], result.triangles.back()[2]);
+    }
+  }
+  for (std::size_t i = result.triangles.size(); i > 1; --i) {
+    std::swap(result.triangles[i - 1], result.triangles[std::size_t(random.below(int(i)))]);
+  }
+  return result;
+}
+
+TriangleMesh joined(TriangleMesh mesh, const TriangleMesh& other) {
+  const auto first = std::uint32_t(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + first, b + first, c + first});
+  return mesh;
+}
+
 TriangleMesh moved(TriangleMesh mesh, const Eigen::Vector3d& by) {
   for (Eigen::Vector3d& vertex : mesh.vertices) vertex += by;
   return mesh;

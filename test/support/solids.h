@@ -32,6 +32,13 @@ TriangleMesh lumpMesh(Random& random, const Eigen::Vector3d& size);
 
 /// Returns a mesh with the same surface, in the form of an STL file: triangles do not share corners.
 TriangleMesh unwelded(const TriangleMesh& mesh);
+/// Returns a mesh with the same surface and each face twice, once for each side.
+TriangleMesh twoSided(const TriangleMesh& mesh);
+/// Returns a mesh with the same surface, as careless programs write it: some faces are turned around, some are given
+/// twice or three times. How many is random, too.
+TriangleMesh disordered(Random& random, const TriangleMesh& mesh);
+/// Returns the triangles of both meshes.
+TriangleMesh joined(TriangleMesh mesh, const TriangleMesh& other);
 TriangleMesh moved(TriangleMesh mesh, const Eigen::Vector3d& by);
 TriangleMesh without(TriangleMesh mesh, std::size_t triangle);
 Shape meshOf(TriangleMesh mesh);

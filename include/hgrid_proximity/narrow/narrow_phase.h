@@ -20,7 +20,7 @@ enum class Measure : std::uint8_t {
   apart = 1,                ///< the shapes are apart; distance, points and normal are valid
   contact = 2,              ///< the shapes are in contact; the distance is 0
   contained = 3,            ///< one shape is inside the other shape, which is a closed mesh; counts as contact
-  containment_unknown = 4,  ///< one shape may be inside the other shape, which is an open mesh; counts as contact
+  containment_unknown = 4,  ///< one shape may be inside the other, a mesh that is open or unclear; counts as contact
   failed = 5,               ///< the solver failed; counts as contact
 };
 

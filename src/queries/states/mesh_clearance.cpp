@@ -8,7 +8,7 @@ MeshClearance::MeshClearance(const BodyShape& shape)
     : mesh_(dynamic_cast<const MeshSolid*>(shape.solid.get())),
       center_(inDouble(boxOf(shape.shape, Pose::Identity(), shape.padding, Eigen::Vector3d::Zero())).center()),
       padding_(roundedUp(shape.padding)) {
-  if (mesh_ != nullptr && !mesh_->enclosure().closed()) mesh_ = nullptr;
+  if (mesh_ != nullptr && !mesh_->enclosure().simple()) mesh_ = nullptr;
 }
 
 unsigned MeshClearance::farther(const FourShapes& mesh, const FourShapes& other, const SphereCover& cover,

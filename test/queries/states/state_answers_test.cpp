@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <thread>
 
+#include "hgrid_proximity/queries/distance_field.h"
+#include "hgrid_proximity/queries/query.h"
 #include "test/queries/states/turning_arm.h"
+#include "test/support/solids.h"
 
 namespace hgrid {
 namespace {
@@ -249,6 +252,48 @@ TEST(StateAnswers, AMeshFarFromTheOriginOfItsLinkTouchesWhatItTouches) {
     plate.shapes.push_back(solidShape(Shape::box({0.01, 0.01, 0.01})));
     put(world.scene, plate, turned * at(10.005 + 0.005 - 5e-8, 0.0025, 0.0025));  // 50 nm inside the mesh
     EXPECT_EQ(world.verdictAt(angle), Verdict::hit) << angle;
+  }
+}
+
+/// Claim: checks and exact queries agree that something is in a mesh whose faces are two-sided, or turned around, or
+/// for both sides but divided in different ways. They find it clear where it is.
+TEST(StateAnswers, AMeshIsAroundWhatItsFacesEncloseWhateverTheirDirections) {
+  const TriangleMesh box = boxMesh({0.6, 0.6, 0.6});
+  TriangleMesh three_sides = box, inner = box;
+  for (std::size_t i = 0; i < 6; ++i) std::swap(three_sides.triangles[i][1], three_sides.triangles[i][2]);
+  for (auto& [a, b, c] : inner.triangles) std::swap(b, c);
+  inner.vertices.push_back({0.3, 0.1, 0.2});  // in a side, which is divided at this corner
+  inner.triangles.pop_back();
+  inner.triangles.insert(inner.triangles.end(), {{3, 5, 8}, {5, 7, 8}, {7, 3, 8}});
+  for (const TriangleMesh& mesh : {box, twoSided(box), unwelded(twoSided(box)), three_sides, joined(box, inner)}) {
+    ArmWorld world;
+    Body crate = obstacle("crate");
+    crate.shapes.push_back(solidShape(meshOf(mesh)));
+    put(world.scene, crate, at(0.5));
+    EXPECT_EQ(world.verdictAt(0.0), Verdict::hit) << "the ball of the arm is in the middle of the crate";
+    EXPECT_EQ(world.verdictAt(2.0), Verdict::clear);
+    EXPECT_EQ(world.checkEdge(2.0, 0.0).verdict, Verdict::hit);
+    QueryScope scope;
+    scope.exact = narrowPhase().get();
+    scope.exclude = {"robot/*"};
+    const auto expectHit = [&scope](const QueryAnswer& answer) {
+      EXPECT_EQ(answer.verdict, Verdict::hit);
+      ASSERT_EQ(answer.hits.size(), 1u);
+      EXPECT_EQ(answer.hits[0].distance, 0.0);
+      EXPECT_FALSE(answer.hits[0].signed_distance > 0.0);
+    };
+    const Snapshot& snapshot = *world.snapshot;
+    expectHit(query(snapshot, Sphere{{0.5, 0, 0}, 0.05}, scope));
+    expectHit(query(snapshot, Segment{{0.4, 0, 0}, {0.6, 0.01, 0}, 0.01}, scope));
+    expectHit(query(snapshot, QueryBox{at(0.5), {0.1, 0.1, 0.1}}, *narrowPhase(), scope));
+    expectHit(query(snapshot, QueryShape{Shape::cone(0.1, 0.1), at(0.5)}, *narrowPhase(), scope));
+    expectHit(nearest(snapshot, {0.5, 0, 0}, 0.0, scope));
+    EXPECT_EQ(query(snapshot, Sphere{{0.5, 0, 0.4}, 0.05}, scope).verdict, Verdict::clear);
+    Lattice point;
+    point.world_from_lattice = at(0.5);
+    point.resolution = 0.1;
+    point.count = {1, 1, 1};
+    EXPECT_LE(distanceField(snapshot, point, {5.0, true}, *narrowPhase(), scope).distance.at(0), 0.0);
   }
 }
 
