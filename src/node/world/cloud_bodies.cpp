@@ -44,14 +44,14 @@ bool CloudBodies::noteRefused(const SourceId& cloud, const std::string& sentence
 
 /// Places each cloud and sets its state. The cells of a cloud are already in the world frame, because tf placed the
 /// points of each message at its stamp.
-void CloudBodies::update(Time time, const Moment& now, bool clock_frozen, Tick& tick, std::vector<SourceGap>& gaps) {
+void CloudBodies::update(const Moment& now, bool clock_frozen, Tick& tick, std::vector<SourceGap>& gaps) {
   const AgeLimits limits{params_.late_after, params_.stale_after, params_.lost_after};
   for (const auto& [source, cloud] : clouds_) {
     const LoadedCloud& newest = cloud.news.newest();
     const std::string& refused = cloud.news.refused();
     BodyTrouble trouble{source.name, tick.world_frame, Freshness::fresh, 0.0, newest.stamp, Code::tf_timeout, {}};
     try {
-      scene_.place(cloud.body, Pose(Eigen::Translation3d(newest.corner)), std::min(time, newest.stamp));
+      scene_.place(cloud.body, Pose(Eigen::Translation3d(newest.corner)), std::min(now.ros, newest.stamp));
       trouble.age = cloud.news.ageOf(now);
       trouble.state = cloud.news.judge(now, clock_frozen, limits);
       trouble.sentence = cloud.news.sentence(source.name, trouble.state, trouble.age);

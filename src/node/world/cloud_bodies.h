@@ -28,8 +28,7 @@ class CloudBodies {
   bool noteRefused(const SourceId& cloud, const std::string& sentence);
   /// Updates the pose and state of every cloud. Appends to the troubles of `tick`, and to `gaps` for each cloud that is
   /// LOST or worse.
-  /// @param time  [ROS time] time of the tick
-  void update(Time time, const Moment& now, bool clock_frozen, Tick& tick, std::vector<SourceGap>& gaps);
+  void update(const Moment& now, bool clock_frozen, Tick& tick, std::vector<SourceGap>& gaps);
 
  private:
   struct Cloud {

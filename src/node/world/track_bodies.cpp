@@ -89,8 +89,8 @@ void TrackBodies::set(const std::string& name, std::shared_ptr<const TrackSet> s
   tracker.placed = false;
 }
 
-void TrackBodies::update(Time time, const Moment& now, bool clock_frozen, Tick& tick, std::vector<SourceGap>& gaps) {
-  const bool went_back = time < time_;
+void TrackBodies::update(const Moment& now, bool clock_frozen, Tick& tick, std::vector<SourceGap>& gaps) {
+  const bool went_back = now.ros < time_;
   for (auto& [name, tracker] : trackers_) {
     const std::size_t before = gaps.size();
     appendGap(SourceId::ofTracker(name).name, tracker, now, clock_frozen, gaps);
@@ -100,21 +100,22 @@ void TrackBodies::update(Time time, const Moment& now, bool clock_frozen, Tick& 
     bool placed = true;
     auto body = tracker.bodies.begin();
     for (const Track& track : tracker.set->tracks) {  // both are sorted by id
-      if (!updateOne(track, (body++)->second, time, now, clock_frozen, place, tick)) placed = false;
+      if (!updateOne(track, (body++)->second, now, clock_frozen, place, tick)) placed = false;
     }
     tracker.placed = placed;  // only now, because placing may run out of memory
   }
-  time_ = time;
+  time_ = now.ros;
 }
 
 /// @returns whether the body has the pose and the stamp of the track; false: place it again in the next tick
-bool TrackBodies::updateOne(const Track& track, BodyId body, Time time, const Moment& now, bool clock_frozen,
-                            bool place, Tick& tick) {
+bool TrackBodies::updateOne(const Track& track, BodyId body, const Moment& now, bool clock_frozen, bool place,
+                            Tick& tick) {
   const double age = track.time.age(now, simulated_);
   Freshness state = clock_frozen ? Freshness::frozen : freshnessOf(age, track.period, limits_);
   std::optional<Refusal> refused;
   try {
-    if (place) scene_.place(body, track.world_from_track, std::min(time, track.time.stamp));
+    // The report can be newer than the tick, which waits for tf, but not newer than now.
+    if (place) scene_.place(body, track.world_from_track, std::min(now.ros, track.time.stamp));
   } catch (const Refusal& refusal) {
     ledger_.refuse("pose.refused", refusal);
     state = Freshness::invalid;
@@ -126,7 +127,7 @@ bool TrackBodies::updateOne(const Track& track, BodyId body, Time time, const Mo
                              refused ? refused->code() : Code::tf_timeout,
                              refused ? refused->what() : "its tracker reported it " + secondsText(age) + " ago"});
   }
-  return !refused && track.time.stamp <= time;
+  return !refused && track.time.stamp <= now.ros;
 }
 
 /// Appends a gap if persons or vehicles may be there that the tracker does not report. A tracker of which no message

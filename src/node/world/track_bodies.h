@@ -35,8 +35,7 @@ class TrackBodies {
   void set(const std::string& tracker, std::shared_ptr<const TrackSet> set, const std::string& world_frame);
   /// Updates the pose and state of every track. Appends to the troubles of `tick`, and to `gaps` for each tracker that
   /// is not complete.
-  /// @param time  [ROS time] time of the tick
-  void update(Time time, const Moment& now, bool clock_frozen, Tick& tick, std::vector<SourceGap>& gaps);
+  void update(const Moment& now, bool clock_frozen, Tick& tick, std::vector<SourceGap>& gaps);
 
  private:
   struct Tracker {
@@ -48,8 +47,7 @@ class TrackBodies {
     bool placed = false;                   // whether all bodies have the poses and the stamps of `set`
   };
   Body bodyOf(const Tracker& tracker, const std::string& id, const std::string& world_frame) const;
-  bool updateOne(const Track& track, BodyId body, Time time, const Moment& now, bool clock_frozen, bool place,
-                 Tick& tick);
+  bool updateOne(const Track& track, BodyId body, const Moment& now, bool clock_frozen, bool place, Tick& tick);
   void appendGap(const std::string& source, const Tracker& tracker, const Moment& now, bool clock_frozen,
                  std::vector<SourceGap>& gaps) const;
 
@@ -59,7 +57,7 @@ class TrackBodies {
   Scene& scene_;
   Ledger& ledger_;
   std::map<std::string, Tracker> trackers_;  // by name
-  Time time_{0};                             // time of the newest tick
+  Time time_{0};                             // [ROS time] when the newest tick was made
 };
 
 }  // namespace hgrid

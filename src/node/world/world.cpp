@@ -317,8 +317,8 @@ std::shared_ptr<Tick> World::tick(const Moment& now) {
   transforms_.news().await(poses_.awaited(), time, now.ros);
   tick->contested_frames = transforms_.claims().sentences(poses_.reading());
   tick->clock_offsets = transforms_.publisherClocks().offsets(poses_.reading());
-  clouds_.update(time, now, clock_.frozen(), *tick, gaps);
-  tracks_.update(time, now, clock_.frozen(), *tick, gaps);
+  clouds_.update(now, clock_.frozen(), *tick, gaps);
+  tracks_.update(now, clock_.frozen(), *tick, gaps);
   sortWorstFirst(tick->troubles);
   if (!tick->troubles.empty() && tick->troubles.front().state == Freshness::unplaced) {
     tick->unplaced = whyUnplaced(movers_.all(), robots_.models().all(), transforms_.table(), world_frame_,

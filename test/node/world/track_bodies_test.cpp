@@ -130,6 +130,17 @@ TEST_F(TracksOf, ATrackerMoveWithItsReports) {
   EXPECT_EQ(world_.sphere(0.45, 0.1), Verdict::clear);
 }
 
+/// Claim: a pose that was measured after the time of the tick has its own stamp. So the time until a contact is
+/// possible is counted from before the pose.
+TEST_F(TracksOf, ATrackerThatIsNewerThanTheTickHaveTheStampsOfTheirReports) {
+  world_.sendNow("/driver", "base", "cart", 0.0);
+  world_.wait(0.04);
+  reports_.take({{"7", 3.0}}, 0.01);
+  world_.tick();
+  EXPECT_EQ(pose("7").stamp, world_.moment().ros - s(0.01));
+  EXPECT_GT(pose("7").stamp, world_.snapshot().stamp());
+}
+
 /// Claim: a track that is no longer reported grows old, is LOST after ~lost_after, and ends after `forget` with an
 /// event. Meanwhile its margins grow by its speed limit.
 TEST_F(TracksOf, ATrackThatIsNoLongerReportedAreLostAndThenEnd) {
