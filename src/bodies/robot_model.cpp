@@ -79,31 +79,43 @@ double reachOf(const std::vector<BodyShape>& shapes) {
   return reach;
 }
 
-double speedBound(const RobotModel& model, std::uint32_t link, double reach) {
-  if (reach == 0.0) return 0.0;
-  double speed = 0.0;
+LinkSpeed linkSpeed(const RobotModel& model, std::uint32_t link, double reach) {
+  LinkSpeed speed;
+  if (reach == 0.0) return speed;
+  bool is_reach_known = true;  // false: `reach` counts only what is known of it
   for (int at = static_cast<int>(link); model.links[static_cast<std::size_t>(at)].parent >= 0;) {
     const RobotLink& here = model.links[static_cast<std::size_t>(at)];
+    Travel travel{0.0, 0.0};
+    double lever = 1.0;
     switch (here.joint_kind) {
       case JointKind::fixed:
         break;
       case JointKind::revolute:
-        speed += travelOf(model, here).speed * reach;
+        travel = {travelOf(model, here).speed, 0.0};
+        lever = reach;
+        speed.is_bound = speed.is_bound && (is_reach_known || travel.speed == 0.0);
         break;
-      case JointKind::prismatic: {
-        const Travel travel = travelOf(model, here);
-        speed += travel.speed;
-        reach += travel.range;
+      case JointKind::prismatic:
+        travel = travelOf(model, here);
         break;
-      }
       case JointKind::planar:
       case JointKind::floating:
-        return kInfinity;
+        travel = {};
+        break;
     }
+    if (std::isfinite(travel.speed)) speed.limited += travel.speed * lever;
+    if (std::isfinite(travel.range)) reach += travel.range;
+    speed.is_bound = speed.is_bound && std::isfinite(travel.speed);
+    is_reach_known = is_reach_known && std::isfinite(travel.range);
     reach += here.parent_from_joint.translation().norm();
     at = here.parent;
   }
-  return std::isnan(speed) ? kInfinity : speed;
+  return speed;
+}
+
+double speedBound(const RobotModel& model, std::uint32_t link, double reach) {
+  const LinkSpeed speed = linkSpeed(model, link, reach);
+  return speed.is_bound ? speed.limited : kInfinity;
 }
 
 double speedBound(const RobotModel& model, std::uint32_t link) {

@@ -103,6 +103,25 @@ TEST(SpeedBound, IsInfiniteWhereAnEndlessSlideIsTurned) {
   EXPECT_LT(speedBound(model, 2), kInfinity);
 }
 
+/// Claim: a joint without a limit hides nothing of what the joints with limits add.
+TEST(LinkSpeed, CountsTheJointsWithLimitsBesideAJointWithoutOne) {
+  RobotModel model = pendulum(JointKind::revolute);
+  EXPECT_TRUE(linkSpeed(model, 1, 0.6).is_bound);
+  for (const JointKind kind : {JointKind::revolute, JointKind::prismatic, JointKind::planar, JointKind::floating}) {
+    RobotModel longer = model;
+    addLink(longer, "flag", 1, kind);
+    longer.links[2].parent_from_joint.translation() << 1, 0, 0;
+    const LinkSpeed flag = linkSpeed(longer, 2, 0.5);
+    EXPECT_DOUBLE_EQ(flag.limited, 2.0 * 1.5) << "kind " << int(kind);
+    EXPECT_FALSE(flag.is_bound);
+  }
+  model.links[1].max_velocity = 0.0;
+  addLink(model, "saw", 1);
+  model.links[2].max_velocity = 30.0;
+  EXPECT_DOUBLE_EQ(linkSpeed(model, 2, 0.5).limited, 15.0);
+  EXPECT_EQ(speedBound(model, 2, 0.5), kInfinity);
+}
+
 /// Returns a lift of three stages. The second one goes twice as far as the first one, the third one three times as far
 /// as the second one; their own limits are smaller than that. An arm of 0.9 m and a ball of 0.1 m turn at the end.
 RobotModel telescope() {

@@ -59,14 +59,24 @@ void findRigidGroups(RobotModel& model);
 /// Returns an upper bound [m] of the distance from the origin of a body to the points of its shapes.
 double reachOf(const std::vector<BodyShape>& shapes);
 
-/// Returns an upper bound [m/s] of the speed, in the root frame, of all points that move with a link and are at most
-/// `reach` [m] from its origin. 0 if the reach is 0: then there are no points.
+/// How fast points that move with a link can be in the root frame, by the velocity limits of the joints above the link.
+struct LinkSpeed {
+  double limited = 0.0;  ///< [m/s] upper bound of the speed that the joints with limits give them
+  bool is_bound = true;  ///< whether `limited` is an upper bound of their speed: no joint may add to it
+};
+
+/// Returns the speed of all points that move with a link and are at most `reach` [m] from its origin. 0 if the reach is
+/// 0: then there are no points.
 ///
-/// Every moving joint between the root and the link adds to the bound. A prismatic joint adds its velocity limit. A
+/// Every moving joint between the root and the link adds to the speed. A prismatic joint adds its velocity limit. A
 /// revolute joint adds its velocity limit times the largest possible distance of the points from the joint. A joint
 /// that mimics another one moves as far and as fast as that one allows, whatever its own limits say: publishers of
-/// joint states and of tf do not obey them. The bound is infinite if one of these joints has no velocity limit, is
-/// planar or floating, or mimics a joint that the model does not have, or over more than eight others.
+/// joint states and of tf do not obey them. A joint without a velocity limit adds nothing, and `is_bound` is false. The
+/// same holds for a joint that is planar or floating, or mimics a joint that the model does not have, or over more than
+/// eight others. `is_bound` is also false if a joint turns a slide that has no end.
+LinkSpeed linkSpeed(const RobotModel& model, std::uint32_t link, double reach);
+
+/// Returns an upper bound [m/s] of the speed that linkSpeed() is about. Infinite if there is none.
 double speedBound(const RobotModel& model, std::uint32_t link, double reach);
 /// As above, for the shapes of the link.
 double speedBound(const RobotModel& model, std::uint32_t link);

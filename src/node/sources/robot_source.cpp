@@ -40,9 +40,7 @@ Body bodyOf(const LoadedRobot& robot, std::uint32_t index, const std::string& tf
     body.note = waiver->reason + " (" + body.note + ")";
   }
   applyPatterns(params, body);
-  body.max_speed =
-      lastMatch(params.max_speed, body.name, expectedSpeed(robot, model, index, reachOf(body.shapes), params));
-  if (rests(robot, params)) body.speed_bound = lastMatch(params.max_speed, body.name, speedBound(model, index));
+  setSpeeds(robot, model, params, body);
   return body;
 }
 
@@ -68,9 +66,15 @@ void findGap(LoadedRobot& robot, const Params& params) {
 
 double expectedSpeed(const LoadedRobot& robot, const RobotModel& model, std::uint32_t link, double reach,
                      const Params& params) {
-  const double joints = speedBound(model, link, reach);
-  return std::isfinite(joints) ? joints + (rests(robot, params) ? 0.0 : params.default_max_speed)
-                               : params.default_max_speed;
+  const LinkSpeed joints = linkSpeed(model, link, reach);
+  return joints.limited + (joints.is_bound && rests(robot, params) ? 0.0 : params.default_max_speed);
+}
+
+void setSpeeds(const LoadedRobot& robot, const RobotModel& model, const Params& params, Body& link) {
+  const double reach = reachOf(link.shapes);  // with the padding, which the shapes of the model do not have
+  link.max_speed = lastMatch(params.max_speed, link.name, expectedSpeed(robot, model, link.link, reach, params));
+  if (!rests(robot, params)) return;
+  link.speed_bound = lastMatch(params.max_speed, link.name, speedBound(model, link.link, reach));
 }
 
 RobotSource::RobotSource(ros::NodeHandle node, const Params& params, std::shared_ptr<NarrowPhase> narrow_phase,

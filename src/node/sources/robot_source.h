@@ -66,10 +66,13 @@ struct ReadDescription {
 };
 
 /// Returns the largest speed [m/s] that is expected of points that move with a link and are at most `reach` [m] from
-/// its origin: the bound of the joints above it, or ~default_max_speed if they have none. If the root frame of the
-/// robot is not the world frame, the whole robot may move, which adds ~default_max_speed.
+/// its origin: what the joints above it allow. If one of these has no limit, or if the root frame of the robot is not
+/// the world frame, so that the whole robot may move, that adds ~default_max_speed.
 double expectedSpeed(const LoadedRobot& robot, const RobotModel& model, std::uint32_t link, double reach,
                      const Params& params);
+
+/// Sets max_speed and speed_bound of a link. Its shapes must have their paddings.
+void setSpeeds(const LoadedRobot& robot, const RobotModel& model, const Params& params, Body& link);
 
 /// Reads robots: their descriptions (URDF and SRDF) from the parameter server, and their meshes.
 class RobotSource {
