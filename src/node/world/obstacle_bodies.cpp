@@ -187,8 +187,14 @@ void ObstacleBodies::followRobots(const RobotModels& robots, const std::string& 
   if (robots_revision_ == robots.revision()) return;
   ObstacleEdits edits;
   for (const auto& [name, obstacle] : present_.all()) {
-    if (!obstacle.attachment || obstacle.lost) continue;
-    follow(edits.set.emplace(name, obstacle).first->second, robots.all(), params_);
+    if (obstacle.lost) continue;
+    if (obstacle.attachment) {
+      follow(edits.set.emplace(name, obstacle).first->second, robots.all(), params_);
+      continue;
+    }
+    const double speed = carrierSpeedOf(obstacle, robots.all(), world_frame, params_);
+    if (speed == 0.0 || speed == obstacle.carrier_speed) continue;  // 0: no link; the frame may move on without it
+    edits.set.emplace(name, obstacle).first->second.carrier_speed = speed;
   }
   if (!edits.set.empty()) carryOut(std::move(edits), world_frame, movers);
   robots_revision_ = robots.revision();

@@ -56,7 +56,8 @@ class ObstacleBodies {
   /// @throws ChangeRefusal or Refusal as editsOf(); Refusal limit (~max_rules), or as Scene::exchange()
   void apply(const ObstacleChanges& changes, const Surroundings& around, Movers& movers,
              PreparedObstacles* prepared = nullptr);
-  /// Finds the places of attached obstacles again if the model of a robot was replaced since the last call.
+  /// Finds the places of attached obstacles again, and the speeds of those that follow the frame of a link, if the
+  /// model of a robot was replaced since the last call.
   void followRobots(const RobotModels& robots, const std::string& world_frame, Movers& movers);
   /// Removes the obstacles whose lifetime has ended.
   void expire(Time now, Movers& movers);

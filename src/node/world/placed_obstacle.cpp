@@ -3,6 +3,7 @@
 #include "node/world/placed_obstacle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -91,6 +92,25 @@ bool moveTogether(const PlacedObstacle& a, const PlacedObstacle& b) {
   return a.attachment ? a.attachment->link == b.attachment->link : a.frame == b.frame;
 }
 
+/// Returns the largest speed [m/s] that is expected of the points of an obstacle that moves with a link.
+double speedWith(const LoadedRobot& robot, const std::string& link, const Pose& link_from_body,
+                 const PlacedObstacle& obstacle, const Params& params) {
+  const LoadedRobot::Group& group = robot.groups[robot.links.at(link).group];
+  double speed = group.members.empty() ? params.default_max_speed : 0.0;
+  if (robot.read) {  // the obstacle may reach farther out than the link, and so be faster
+    const RobotModel& model = robot.read->model;
+    const int index = model.find(link.substr(robot.name.size() + 1));
+    const double reach = link_from_body.translation().norm() + reachOf(obstacle.what->body.shapes);
+    speed = expectedSpeed(robot, model, static_cast<std::uint32_t>(index), reach, params);
+  }
+  for (const auto& member : group.members) speed = std::max(speed, robot.bodies[member.first].max_speed);
+  return speed;
+}
+
+void setCarrierSpeed(PlacedObstacle& obstacle, const Surroundings& around) {
+  obstacle.carrier_speed = carrierSpeedOf(obstacle, around.robots, around.world_frame, around.params);
+}
+
 void checkNoGlob(const std::string& name) {
   if (!isGlob(name)) return;
   throw Refusal(Code::bad_id,
@@ -120,6 +140,8 @@ Body bodyOf(const PlacedObstacle& obstacle, const std::string& world_frame) {
   if (obstacle.attachment) {
     body.max_speed = std::max(body.max_speed, obstacle.carrier_speed);
     body.speed_bound = std::numeric_limits<double>::infinity();  // its points may be faster than those of the link
+  } else if (!std::isfinite(body.speed_bound)) {                 // otherwise somebody has said how fast it can be
+    body.max_speed = std::max(body.max_speed, obstacle.carrier_speed);
   }
   return body;
 }
@@ -153,6 +175,7 @@ void put(PlacedObstacle& obstacle, const ObstaclePlace& place, const Surrounding
     obstacle.frame = around.world_frame;
   }
   checkPlace(obstacle, around);
+  setCarrierSpeed(obstacle, around);
 }
 
 void attach(PlacedObstacle& obstacle, const Attachment& attachment, const Surroundings& around) {
@@ -200,7 +223,8 @@ void append(PlacedObstacle& obstacle, const RequestedObstacle& added, const Surr
     what->body.shapes.push_back(std::move(shape));
   }
   obstacle.what = std::move(what);
-  if (obstacle.attachment) follow(obstacle, around.robots, around.params);  // it may reach farther out now
+  // It may reach farther out now.
+  obstacle.attachment ? follow(obstacle, around.robots, around.params) : setCarrierSpeed(obstacle, around);
 }
 
 void checkPlanes(const PlacedObstacle& obstacle, const std::string& world_frame) {
@@ -271,7 +295,7 @@ void carry(PlacedObstacle& obstacle, const PlacedObstacle& before, const PlacedO
   }
   obstacle.touch = after.touch;
   obstacle.carrier_speed = after.carrier_speed;
-  if (obstacle.attachment) follow(obstacle, around.robots, around.params);
+  obstacle.attachment ? follow(obstacle, around.robots, around.params) : setCarrierSpeed(obstacle, around);
   checkPlace(obstacle, around);
 }
 
@@ -289,18 +313,21 @@ void follow(PlacedObstacle& obstacle, const RobotEntries& robots, const Params& 
   for (const std::string& link : attachment.touch_links) {
     if (!isGlob(link)) obstacle.touch.push_back(joined(robot->name, link));
   }
-  obstacle.carrier_speed = group.members.empty() ? params.default_max_speed : 0.0;
-  if (robot->read) {  // the obstacle may reach farther out than the link, and so be faster
-    const RobotModel& model = robot->read->model;
-    const int link = model.find(attachment.link.substr(robot->name.size() + 1));
-    const double reach = attachment.link_from_body->translation().norm() + reachOf(obstacle.what->body.shapes);
-    obstacle.carrier_speed = expectedSpeed(*robot, model, static_cast<std::uint32_t>(link), reach, params);
-  }
+  obstacle.carrier_speed = speedWith(*robot, attachment.link, *attachment.link_from_body, obstacle, params);
   for (const auto& member : group.members) {
     const Body& rigid = robot->bodies[member.first];  // it never moves relative to the obstacle
-    obstacle.carrier_speed = std::max(obstacle.carrier_speed, rigid.max_speed);
     if (rigid.name != attachment.link && !isGlob(rigid.name)) obstacle.touch.push_back(rigid.name);
   }
+}
+
+double carrierSpeedOf(const PlacedObstacle& obstacle, const RobotEntries& robots, const std::string& world_frame,
+                      const Params& params) {
+  double speed = 0.0;
+  if (obstacle.frame == world_frame) return speed;
+  for (const std::string& link : linksAt(robots, obstacle.frame)) {
+    speed = std::max(speed, speedWith(*findLink(robots, link), link, obstacle.frame_from_body, obstacle, params));
+  }
+  return speed;
 }
 
 }  // namespace hgrid

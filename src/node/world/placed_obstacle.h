@@ -34,7 +34,9 @@ struct PlacedObstacle {
   bool restored = false;  ///< whether an earlier run of the node stored it, and nothing has confirmed it since
   std::shared_ptr<const Attachment> attachment;  ///< the link that it is attached to, and its pose there; null: none
   std::vector<std::string> touch;  ///< while it is attached: names and globs of the bodies that may touch it
-  double carrier_speed = 0.0;      ///< [m/s] while it is attached: expected largest speed of the link
+  /// [m/s] Expected largest speed of its points, because they move with the link that it is attached to, or whose frame
+  /// it follows. 0: there is no such link.
+  double carrier_speed = 0.0;
 };
 
 /// Returns the tf frame that an obstacle follows. @param frame  as requested; empty: the world frame; see kPosesFrame
@@ -87,5 +89,9 @@ void placeShapes(PlacedObstacle& obstacle, const std::vector<Pose>& poses);
 /// Computes the place and the touch list of an attached obstacle again, after the model of its robot was replaced. If
 /// the link does not exist any more, the obstacle stays as it is.
 void follow(PlacedObstacle& obstacle, const RobotEntries& robots, const Params& params);
+
+/// Returns the carrier_speed of an obstacle that is not attached.
+double carrierSpeedOf(const PlacedObstacle& obstacle, const RobotEntries& robots, const std::string& world_frame,
+                      const Params& params);
 
 }  // namespace hgrid

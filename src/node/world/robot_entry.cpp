@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/world/robot_entry.h"
 
+#include "node/tf/frame_names.h"
+
 namespace hgrid {
 
 const LoadedRobot* findLink(const RobotEntries& robots, const std::string& link) {
@@ -26,6 +28,18 @@ std::set<std::string, std::less<>> freeFrames(const RobotEntries& robots) {
     if (robot.inWorld()) frames.insert(robot.model->free_frames.begin(), robot.model->free_frames.end());
   }
   return frames;
+}
+
+std::vector<std::string> linksAt(const RobotEntries& robots, const std::string& frame) {
+  std::vector<std::string> links;
+  for (const auto& [robot, entry] : robots) {
+    if (!entry.inWorld()) continue;
+    const std::string prefix = prefixed(entry.spec->params.tf_prefix, "");
+    if (frame.compare(0, prefix.size(), prefix) != 0) continue;
+    const std::string link = robot + "/" + frame.substr(prefix.size());
+    if (entry.model->links.count(link) != 0) links.push_back(link);
+  }
+  return links;
 }
 
 }  // namespace hgrid

@@ -32,6 +32,9 @@ std::set<std::string, std::less<>> freeFrames(const RobotEntries& robots);
 /// Returns the full names, "robot/link", of the links of all robots in the world that have this name without the robot.
 std::vector<std::string> linksNamed(const RobotEntries& robots, const std::string& name);
 
+/// Returns the full names, "robot/link", of the links of all robots in the world whose tf frame this is.
+std::vector<std::string> linksAt(const RobotEntries& robots, const std::string& frame);
+
 /// A robot that an earlier run of the node added or declared absent.
 struct StoredRobot {
   RobotSpec spec;

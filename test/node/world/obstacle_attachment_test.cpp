@@ -68,20 +68,45 @@ TEST_F(Obstacles, ThatAreAttachedStayWhereTheirLinkWas) {
   EXPECT_EQ(refused({detaching("part")}), std::nullopt);
 }
 
-/// Claim: what is attached to a link may reach farther out than the link, and is then expected to be faster.
-TEST_F(Obstacles, ThatAreAttachedAreAsFastAsTheJointsLetTheirFarEndBe) {
+/// Returns an arm whose hand turns at 3 rad/s, with a flange at the joint.
+std::shared_ptr<const LoadedRobot> turningArm() {
   const auto read = std::make_shared<ReadDescription>();
   addLink(read->model, "base", -1);
   addLink(read->model, "hand", 0);
   read->model.links[1].max_velocity = 3.0;
   addLink(read->model, "tool", 1, JointKind::fixed, false);
   read->model.links[2].parent_from_joint.translation().x() = 0.25;
+  addLink(read->model, "flange", 1, JointKind::fixed, false);
   findRigidGroups(read->model);
   LoadedRobot turning = arm();
   turning.read = read;
-  world_.setRobot(std::make_shared<const LoadedRobot>(turning));
+  turning.links["arm/flange"] = {1, Pose::Identity()};
+  for (Body& link : turning.bodies) link.max_speed = 1.0;
+  return std::make_shared<const LoadedRobot>(turning);
+}
+
+/// Claim: what is attached to a link may reach farther out than the link, and is then expected to be faster.
+TEST_F(Obstacles, ThatAreAttachedAreAsFastAsTheJointsLetTheirFarEndBe) {
+  world_.setRobot(turningArm());
   apply({adding("part", 1), attaching("part", "arm/tool", 3.0)});
-  EXPECT_GE(bodyOf(tick(), "obstacle/part").max_speed, 3.0 * 3.25);
+  EXPECT_DOUBLE_EQ(bodyOf(tick(), "obstacle/part").max_speed, 3.0 * 3.35);
+}
+
+/// Claim: an obstacle that follows the tf frame of a link moves like one that is attached to it.
+TEST_F(Obstacles, ThatFollowTheFrameOfALinkAreAsFastAsTheJointsLetTheirFarEndBe) {
+  msg::Obstacle bounded = adding("bounded", 3.0, 0.1, "flange");
+  bounded.max_speed = 0.5;
+  apply({adding("pole", 3.0, 0.5, "flange"), adding("crate", 3.0), bounded});
+  EXPECT_EQ(bodyOf(tick(), "obstacle/pole").max_speed, params().default_max_speed);
+  world_.setRobot(turningArm());
+  EXPECT_DOUBLE_EQ(bodyOf(tick(), "obstacle/pole").max_speed, 3.0 * 3.5) << "the robot came later";
+  EXPECT_EQ(bodyOf(tick(), "obstacle/crate").max_speed, params().default_max_speed) << "it follows no link";
+  EXPECT_EQ(bodyOf(tick(), "obstacle/bounded").max_speed, 0.5) << "the request gives a bound";
+  apply({moving("pole", 5.0, "flange"), adding("rod", 2.0, 0.1, "hand")});
+  EXPECT_DOUBLE_EQ(bodyOf(tick(), "obstacle/pole").max_speed, 3.0 * 5.5);
+  EXPECT_DOUBLE_EQ(bodyOf(tick(), "obstacle/rod").max_speed, 3.0 * 2.1);
+  apply({moving("pole", 5.0)});
+  EXPECT_EQ(bodyOf(tick(), "obstacle/pole").max_speed, params().default_max_speed);
 }
 
 TEST_F(Obstacles, ThatAreAttachedMoveWithANewModelOfTheRobot) {
