@@ -110,6 +110,15 @@ TEST(PointCloud, PointsThatSayNothingOrTooNearAreCountedApart) {
   EXPECT_EQ(cloudOf({{0, 0, 0}}, 0.0, 16).points.size(), 1u) << "with min_range 0, the origin is a point";
 }
 
+TEST(PointCloud, PointsAtTheEndOfTheRangeAreNoReturns) {
+  const PointCloud cloud =
+      cloudOf({{0, 0, 2}, {0, 29.9f, 0}, {18, 24, 0}, {0, -30, 0}, {0, 0, 1e10f}, {1e38f, 0, 0}}, 0.001, 6 * 16);
+  EXPECT_EQ(cloud.points.size(), 6u);
+  EXPECT_EQ(returnsWithin(30.0, cloud), 2u);
+  EXPECT_EQ(returnsWithin(800.0, cloud), 4u);
+  EXPECT_EQ(returnsWithin(30.0, PointCloud{}), 0u);
+}
+
 TEST(PointCloud, OfOneRowNeedsNoRowStep) {
   const PointCloud cloud = cloudOf({{0, 0, 1}, {0, 0, 2}}, 0.0, 0);
   EXPECT_EQ(cloud.points.size(), 2u);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -51,5 +52,9 @@ struct PointCloud {
 /// - truncated: there are too few bytes for the rows
 PointCloud readPointCloud(const PointCloudFormat& format, std::string_view data, double min_range,
                           const std::string& what);
+
+/// Returns how many points of a cloud are nearer to the origin of their frame than `range` [m]. Some drivers report a
+/// beam without return as a point at the end of the range or farther, for example at 1e10 m.
+std::size_t returnsWithin(double range, const PointCloud& cloud);
 
 }  // namespace hgrid

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "hgrid_proximity/adapters/point_cloud.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -109,6 +110,12 @@ PointCloud readPointCloud(const PointCloudFormat& given, std::string_view data, 
     }
   }
   return cloud;
+}
+
+std::size_t returnsWithin(double range, const PointCloud& cloud) {
+  const double end = (1.0 - 1e-6) * range;  // the rounding of coordinates in floats is smaller
+  return static_cast<std::size_t>(std::count_if(cloud.points.begin(), cloud.points.end(),
+                                                [end](const Eigen::Vector3d& point) { return point.norm() < end; }));
 }
 
 }  // namespace hgrid

@@ -129,17 +129,18 @@ void visitParams(Visitor& v, Params& p) {
          "octomap_binary if there is no file either. frame: tf frame that the map of a file follows; empty: it is "
          "fixed in the world frame. The map of a topic follows the frame of its messages. pose: pose of the map in its "
          "frame. max_age: the map of a topic is not complete while its newest message is older than this; 0: off");
-  v.clouds("clouds", p.clouds,
-           "list of {name, topic, resolution: [m], lifetime: [s], empty, min_points, range: [m], min_range: [m], "
-           "blind_range: [m]}: point clouds. Each is the body cloud/name. topic: a topic of sensor_msgs/PointCloud2, "
-           "default cloud. resolution: edge of the cells that the points fill in the world frame, default 0.05. "
-           "lifetime: how long a cell stays after the sensor last saw a point in it, default 1. The cloud is not "
-           "complete if no newer message arrives within its lifetime. min_points: a message with fewer points counts "
-           "as empty, default 1. empty: what an empty message means: unknown (it does not count as newer, default) or "
-           "clear (nothing is there). range: the sensor sees no farther than this, default 0: no bound. min_range: "
-           "points nearer to the origin of their frame are beams without return, and no points, default 0.001. "
-           "blind_range: how far from the sensor something may be if points are -inf, which means too near to be "
-           "seen, default 0.5");
+  v.clouds(
+      "clouds", p.clouds,
+      "list of {name, topic, resolution: [m], lifetime: [s], empty, min_points, range: [m], min_range: [m], "
+      "blind_range: [m]}: point clouds. Each is the body cloud/name. topic: a topic of sensor_msgs/PointCloud2, "
+      "default cloud. resolution: edge of the cells that the points fill in the world frame, default 0.05. "
+      "lifetime: how long a cell stays after the sensor last saw a point in it, default 1. The cloud is not "
+      "complete if no newer message arrives within its lifetime. min_points: a message with fewer points counts "
+      "as empty, default 1. empty: what an empty message means: unknown (it does not count as newer, default) or "
+      "clear (nothing is there). range: the sensor sees no farther than this, default 0: no bound. Points that are "
+      "as far as that or farther do not count for min_points. min_range: points nearer to the origin of their "
+      "frame are beams without return, and no points, default 0.001. blind_range: how far from the sensor "
+      "something may be if points are -inf, which means too near to be seen, default 0.5");
   v.string("map/folder", p.map_folder,
            "folder from which maps and ~load_octomap may read files; empty: no file is read");
   v.number("map/occupied_from", p.map_occupied_from, "", 0.001, 0.999,
@@ -229,7 +230,7 @@ void visitParams(Visitor& v, Params& p) {
            "several globs match, the last one counts");
   v.number("default_max_speed", p.default_max_speed, "m/s", 0.0, 1e6,
            "upper bound of the speed of bodies for which neither max_speed nor the joint velocity limits of the robot "
-           "give one");
+           "give one. A link below a joint without a limit may be faster by what the other joints allow");
   v.changeable();
   v.number("horizon", p.horizon, "s", 0.0, 60.0,
            "bodies that can meet within this time, by their speed bounds, are pairs too, with the flag HORIZON. So are "

@@ -107,7 +107,8 @@ void CloudSource::take(const CloudMessage& message) {
                                    ", is allowed");
   }
   PointCloud cloud = readPointCloud(message.format, message.data, cloud_.min_range, what_);
-  const std::size_t points = cloud.points.size();
+  const double reach = cloud_.resolution * CloudCells::kReach;  // [m] points farther away have no cells
+  const std::size_t points = returnsWithin(cloud_.range > 0.0 ? std::min(cloud_.range, reach) : reach, cloud);
   const std::uint64_t too_near = cloud.too_near;
   const std::string frame = message.frame.empty() ? tick->world_frame : withoutSlash(message.frame);
   if (frame != frame_) {

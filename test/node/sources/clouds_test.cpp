@@ -159,8 +159,9 @@ TEST_F(Clouds, WithoutFinitePointsDoNotKeepTheCloudFresh) {
   start(1.0);
   const float nan = std::nanf("");
   const Points wall{{0.05f, 0.05f, 2.05f}};  // z is 3.05 m in "base"
-  const Points beams_without_return(441, {0.0f, 0.0f, 0.0f});
-  for (const Points& blind : {Points{}, Points{{nan, nan, nan}, {nan, 0.0f, 0.0f}}, beams_without_return}) {
+  const Points beams_without_return(441, {0.0f, 0.0f, 0.0f}), beams_without_end(441, {0.0f, 0.0f, 1e10f});
+  for (const Points& blind :
+       {Points{}, Points{{nan, nan, nan}, {nan, 0.0f, 0.0f}}, beams_without_return, beams_without_end}) {
     SCOPED_TRACE(std::to_string(blind.size()) + " points");
     EXPECT_EQ(askedWithFresh(wall, 0.05, 0.05, 3.05).verdict, msg::Verdict::HIT);
     sendUntil(blind, "the cloud is lost", [](const msg::Status& status) {
