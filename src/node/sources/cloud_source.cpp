@@ -110,7 +110,7 @@ void CloudSource::take(const CloudMessage& message) {
   const double reach = cloud_.resolution * CloudCells::kReach;  // [m] points farther away have no cells
   const std::size_t points = returnsWithin(cloud_.range > 0.0 ? std::min(cloud_.range, reach) : reach, cloud);
   const std::uint64_t too_near = cloud.too_near;
-  const std::string frame = message.frame.empty() ? tick->world_frame : withoutSlash(message.frame);
+  const std::string frame = frameOfData(message.frame, what_);
   if (frame != frame_) {
     sink_.follow(frame);
     frame_ = frame;

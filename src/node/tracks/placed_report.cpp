@@ -22,7 +22,7 @@ std::vector<PlacedReport> placedInWorld(const TrackReport& report, const Transfo
   std::map<std::pair<std::string, Time>, Pose> world_from;
   for (const auto& [frame, stamp] : framesOf(report)) {
     Pose& pose = world_from.emplace(std::pair(frame, stamp), Pose::Identity()).first->second;
-    if (frame.empty() || frame == world_frame) continue;
+    if (frame == world_frame) continue;
     std::string why;
     const auto found = transforms.at(world_frame, frame, stamp, &why);
     if (!found) {

@@ -114,7 +114,7 @@ class Reader {
            const std::string& what) {
     const geometry_msgs::Quaternion& q = pose.orientation;
     if (q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0) ++report_.unrotated;
-    report_.poses.push_back({id, withoutSlash(frame), stamp, fromPose(pose, what)});
+    report_.poses.push_back({id, frameOfData(frame, what), stamp, fromPose(pose, what)});
   }
 
   const TrackerParams& tracker_;

@@ -16,7 +16,7 @@ struct TrackReport {
   /// The pose of one track.
   struct Reported {
     std::string id;     ///< "7" or "namespace/7"; empty if the message has no ids
-    std::string frame;  ///< tf frame of the pose; empty: the world frame
+    std::string frame;  ///< tf frame of the pose
     Time stamp{0};      ///< [ROS time]
     Pose frame_from_track = Pose::Identity();
   };

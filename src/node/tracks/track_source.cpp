@@ -112,7 +112,7 @@ void TrackSource::take(const ReceivedTracks& received) {
   const TrackReport report = readTrackReport(received.message->bytes, tracker_, received.arrival, params_.max_future);
   std::vector<std::string> frames;
   for (const auto& [frame, stamp] : framesOf(report)) {
-    if (!frame.empty() && (frames.empty() || frames.back() != frame)) frames.push_back(frame);
+    if (frames.empty() || frames.back() != frame) frames.push_back(frame);
   }
   if (frames != frames_) {
     sink_.follow(frames);
@@ -135,7 +135,7 @@ void TrackSource::take(const ReceivedTracks& received) {
 void TrackSource::waitFor(const TrackReport& report, const std::string& world_frame) const {
   const auto deadline = report.arrival.steady + std::chrono::nanoseconds(std::llround(1e9 * params_.max_sync_wait));
   for (const auto& [frame, stamp] : framesOf(report)) {
-    if (frame.empty() || frame == world_frame) continue;
+    if (frame == world_frame) continue;
     while (!queue_.ended() && std::chrono::steady_clock::now() < deadline &&
            !transforms_.isKnown(world_frame, frame, stamp)) {
       std::this_thread::sleep_for(kLookAgain);

@@ -291,6 +291,11 @@ TEST_F(Clouds, ThatCannotBePlacedAreRefusedAndReportedAsMissing) {
     return !now.world.reasons.empty() && now.world.reasons[0].find("UNKNOWN_FRAME cloud 'front' of points") == 0;
   });
   EXPECT_TRUE(says(status->world.reasons[0], "the pose of its frame 'nowhere' in 'base' at its stamp"));
+  node_->waitUntil("only the publisher knows the frame of its points", [&](const Heard& heard) {
+    send(cloudOf("", transforms_.now(), {{1, 1, 1}}));
+    const std::vector<std::string>& reasons = heard.status.back()->world.reasons;
+    return !reasons.empty() && says(reasons[0], "cloud 'front' of points has no frame_id");
+  });
   send(cloudOf("camera", transforms_.now() + ros::Duration(100.0), {{0, 0, 0}}));
   node_->waitForStatus("a refusal", refused("CLOCK"));
   transforms_.send({stamped("base", "arm", at(3.0), transforms_.now())});

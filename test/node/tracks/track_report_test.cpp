@@ -78,9 +78,9 @@ TEST(TrackReport, OfAnEmptyMessageIsACompleteSetWithoutTracks) {
 TEST(TrackReport, LeavesOutMarkersOfOtherNamespaces) {
   TrackerParams tracker = people();
   tracker.namespaces = {"leg*"};
-  Marker path = marker(1, 9.0, kStamp, "", "paths");
+  Marker path = marker(1, 9.0, kStamp, "base", "paths");
   path.type = Marker::LINE_STRIP;
-  const TrackReport report = read(markers({marker(1, 1.0, kStamp, "", "legs"), path}), tracker);
+  const TrackReport report = read(markers({marker(1, 1.0, kStamp, "base", "legs"), path}), tracker);
   EXPECT_EQ(idsOf(report), Ids({"legs/1"}));
   EXPECT_EQ(report.ignored, 1u);
 }
@@ -115,6 +115,16 @@ TEST(TrackReport, RefusesStampsInTheFuture) {
   EXPECT_EQ(refused(markers({marker(1, 1.0, ros::Time(1000.6))}), "0.6 s in the future"), Code::clock);
   EXPECT_EQ(refused(markers({marker(1, 1.0, ros::Time(1000.4))}), ""), Code::ok);
   EXPECT_EQ(refused(poses({1.0}, ros::Time(4e9)), "in the future", people(TrackerType::poses)), Code::clock);
+}
+
+/// Claim: only the publisher knows the frame of its poses. The world frame would be a guess.
+TEST(TrackReport, RefusesPosesWithoutAFrame) {
+  for (const std::string frame : {"", "/"}) {
+    EXPECT_EQ(refused(markers({marker(1, 1.0, kStamp, frame)}), "marker '1' has no frame_id"), Code::unknown_frame);
+    EXPECT_EQ(refused(poses({1.0}, kStamp, frame), "pose 0 has no frame_id", people(TrackerType::poses)),
+              Code::unknown_frame);
+  }
+  EXPECT_EQ(refused(poses({}, kStamp, ""), "", people(TrackerType::poses)), Code::ok) << "nothing has to be placed";
 }
 
 TEST(TrackReport, RefusesWhatArrivesBeforeThereIsATime) {
@@ -163,7 +173,7 @@ TEST(TrackReport, RefusesBytesThatAreNoMessage) {
       EXPECT_THROW(readTrackReport(bytes.substr(0, size), people(type), kNow, 0.5), Refusal) << size;
     }
     std::string longer = bytes;
-    longer.replace(type == TrackerType::markers ? 0 : 16, 4, bytesOf(std::uint32_t{0xffffffff}));
+    longer.replace(type == TrackerType::markers ? 0 : 20, 4, bytesOf(std::uint32_t{0xffffffff}));
     EXPECT_THROW(readTrackReport(longer, people(type), kNow, 0.5), Refusal) << "a length beyond the message";
   }
 }
@@ -215,7 +225,7 @@ TEST_F(PlacedReports, AreRefusedIfTheirPlaceIsNotKnown) {
   EXPECT_EQ(refused(read(markers({marker(1, 5.0, kStamp, "nowhere")}), people())), Code::unknown_frame);
   EXPECT_EQ(refused(read(markers({marker(1, 5.0, ros::Time(1000.25), "eye")}), people())), Code::extrapolation);
   EXPECT_EQ(refused(read(markers({marker(1, 5.0, ros::Time(900.0), "eye")}), people())), Code::extrapolation);
-  EXPECT_EQ(refused(read(markers({marker(1, 200.0, kStamp)}), people()), 100.0), Code::out_of_range);
+  EXPECT_EQ(refused(read(markers({marker(1, 200.0, kStamp, "world")}), people()), 100.0), Code::out_of_range);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ inline geometry_msgs::Pose trackPoseAt(double x, double y = 0.0, double z = 0.0)
   return pose;
 }
 
-inline Marker marker(int id, double x, ros::Time stamp, const std::string& frame = "", const std::string& ns = "") {
+inline Marker marker(int id, double x, ros::Time stamp, const std::string& frame = "base", const std::string& ns = "") {
   Marker marker;
   marker.header.frame_id = frame;
   marker.header.stamp = stamp;
@@ -58,7 +58,8 @@ inline visualization_msgs::MarkerArray markers(const std::vector<Marker>& list) 
 }
 
 /// Returns poses at these x [m].
-inline geometry_msgs::PoseArray poses(const std::vector<double>& xs, ros::Time stamp, const std::string& frame = "") {
+inline geometry_msgs::PoseArray poses(const std::vector<double>& xs, ros::Time stamp,
+                                      const std::string& frame = "base") {
   geometry_msgs::PoseArray array;
   array.header.stamp = stamp;
   array.header.frame_id = frame;
