@@ -16,7 +16,7 @@ namespace {
 
 namespace msg = ::hgrid_proximity;
 
-constexpr std::size_t kLongestFrame = 256;  // [byte]
+constexpr std::size_t kLongestFrameName = 256;  // [byte]
 
 /// @throws Refusal bad_geometry unless the list has one entry, or `width` values, for each pose
 void checkLength(const char* list, std::size_t length, std::size_t poses, std::size_t width, bool may_be_empty) {
@@ -90,9 +90,9 @@ std::string PosesConverter::toTransforms(const std::string& bytes, const std::st
     throw Refusal(Code::limit, "it has " + std::to_string(poses.names.size()) + " names; at most " +
                                    std::to_string(most_names_) + " are allowed (~max_bodies)");
   }
-  if (poses.header.frame_id.size() > kLongestFrame) {
+  if (poses.header.frame_id.size() > kLongestFrameName) {
     throw Refusal(Code::limit, "its frame_id has " + std::to_string(poses.header.frame_id.size()) + " bytes; at most " +
-                                   std::to_string(kLongestFrame) + " are allowed");
+                                   std::to_string(kLongestFrameName) + " are allowed");
   }
   const Key key(publisher, poses.names_version);
   if (poses.names.empty()) {
