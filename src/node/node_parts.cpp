@@ -54,7 +54,8 @@ NodeParts::NodeParts(const ros::NodeHandle& node, const ros::NodeHandle& private
             return world_.prepareRobots(edit, tick_loop_.newest());
           },
           jobs_, world_.robots(), state_.restored().maps, [this] { return isEnding(); }),
-      guard_(batch_threads_.privateNode(), commons_, world_.transforms().lookup()),
+      joint_state_topics_(node, commons_, joint_states_),
+      guard_(batch_threads_.privateNode(), commons_, world_.transforms().lookup(), joint_states_),
       path_topics_(node, commons_, guard_, [this] { return tick_loop_.newest(); }),
       services_(
           withQueue(private_node, quick_queries_), query_threads_.privateNode(), batch_threads_.privateNode(),
@@ -96,6 +97,7 @@ void NodeParts::stop() {
   moveit_.stopTopics();
   trackers_.stop();
   path_topics_.stop();
+  joint_state_topics_.stop();
   tick_thread_.stop();
   quick_queries_.stop();
   query_threads_.stop();
@@ -165,6 +167,10 @@ std::vector<Chore> NodeParts::chores() {
           {"markers.failed", kAlways,
            [this](Time now) {
              if (marker_pace_.takeDue(now)) publishers_.publishMarkers(tick_loop_.newest());
+           }},
+          {"guard.joint_states.failed", kAlways,
+           [this](Time) {
+             if (const auto newest = tick_loop_.newest()) joint_state_topics_.follow(*newest);
            }},
           {"leases.failed", kAlways,
            [this](Time) {

@@ -15,6 +15,7 @@
 #include "node/diagnostics/model_log.h"
 #include "node/diagnostics/node_diagnostics.h"
 #include "node/guard/guard.h"
+#include "node/guard/joint_state_topics.h"
 #include "node/guard/path_topics.h"
 #include "node/housekeeping.h"
 #include "node/loading/loading.h"
@@ -73,6 +74,8 @@ class NodeParts {
   CompletenessLog completeness_log_;
   ModelLog model_log_;
   Loading loading_;
+  JointStates joint_states_;
+  JointStateTopics joint_state_topics_;
   Guard guard_;
   PathTopics path_topics_;
   NodeServices services_;

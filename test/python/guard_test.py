@@ -14,11 +14,14 @@ from hgrid_proximity.client import Proximity
 from hgrid_proximity.errors import Refused
 from hgrid_proximity.msg import Conflicts, Verdict
 from moveit_types import Types
+from sensor_msgs.msg import JointState
 from turning_arm import TO_POST, Arm, wait
 
 JOINTS = ["shoulder", "slide"]
 TYPES, MELODIC = Types(), Types(noetic=False)
 TYPES["DisplayTrajectory"]  # makes the classes of its parts, too
+TYPES["actionlib_msgs/GoalStatusArray"]
+STATUS = TYPES["actionlib_msgs/GoalStatus"]
 TRAJECTORY, POINT = TYPES["trajectory_msgs/JointTrajectory"], TYPES["trajectory_msgs/JointTrajectoryPoint"]
 
 
@@ -233,6 +236,84 @@ class Guard(unittest.TestCase):
         wait(lambda: self.last.header.stamp > sent + rospy.Duration(0.5), "a later message")
         self.assertIsNotNone(self.conflict())
         self.assertAlmostEqual((self.last.at[self.conflict()] - at).to_sec(), 0.0, delta=0.3)
+
+    # Claim: a message that names one joint leaves the path of the other one as it is.
+    def test_a_message_replaces_the_paths_of_its_joints_only(self):
+        self.publish("arm/command", trajectory((6, 3, 0.25), (30, 3, 0.25)))
+        wait(lambda: self.conflict() is not None, "the conflict")
+        sent = self.publish("arm/command", trajectory((8, 0.25), joints=["slide"]))
+        wait(lambda: self.last.header.stamp > sent + rospy.Duration(0.3), "a later message")
+        self.assertIsNotNone(self.conflict())
+
+    def goal(self, name, path):
+        goal = TYPES["control_msgs/FollowJointTrajectoryActionGoal"]()
+        goal.goal_id.id, goal.goal.trajectory = name, path
+        self.publish("arm/goal", goal)
+
+    def status(self, name, status):
+        array = TYPES["actionlib_msgs/GoalStatusArray"]()
+        array.status_list = [STATUS(status=status)]
+        array.status_list[0].goal_id.id = name
+        self.publish("arm/status", array)
+
+    # Claim: the node follows what becomes of a goal: it is accepted, replaced by a command, canceled or refused.
+    def test_goals_are_followed_until_they_end(self):
+        to_post, free = trajectory((6, 3, 0.25), (30, 3, 0.25)), trajectory((0.5, 0.3, 0.25), (1, 0.3, 0.25))
+        verdict = lambda *verdicts: self.last and tuple(self.last.verdicts) == verdicts
+        self.status("unseen", STATUS.ACTIVE)
+        wait(lambda: verdict(Verdict.UNKNOWN) and "did not receive it" in self.last.reasons[0], "the unseen goal")
+        self.goal("first", trajectory((8, 0.3, 0.25)))
+        wait(lambda: verdict(Verdict.UNKNOWN) and "not accepted yet" in self.last.reasons[0], "the goal")
+        self.status("first", STATUS.ACTIVE)
+        wait(lambda: verdict(Verdict.CLEAR), "the accepted goal")
+        self.goal("second", to_post)
+        wait(lambda: verdict(Verdict.HIT), "the conflict")
+        self.status("second", STATUS.REJECTED)
+        wait(lambda: verdict(Verdict.CLEAR) or verdict(Verdict.UNKNOWN), "the path of the first goal")
+        self.goal("third", to_post)
+        self.status("third", STATUS.ACTIVE)
+        wait(lambda: verdict(Verdict.HIT), "the conflict of the third goal")
+        self.publish("arm/command", free)
+        wait(lambda: verdict(Verdict.CLEAR), "the command instead of the goal")
+        wait(lambda: verdict(), "an empty message, and no conflict of the goal that was replaced")
+        self.goal("fourth", to_post)
+        self.status("fourth", STATUS.ACTIVE)
+        wait(lambda: verdict(Verdict.HIT), "the conflict of the fourth goal")
+        self.publish("arm/cancel", TYPES["actionlib_msgs/GoalID"](id="fourth"))
+        result = TYPES["control_msgs/FollowJointTrajectoryActionResult"]()
+        result.status.goal_id.id, result.status.status = "fourth", STATUS.PREEMPTED
+        self.publish("arm/result", result)
+        wait(lambda: verdict(), "an empty message")
+
+    # Claim: on tf, -2.78 and 3.5 rad look alike. Joint states tell at which turn a joint is; without them nobody knows.
+    def test_joint_states_tell_full_turns_apart(self):
+        urdf = """<robot name='w'><link name='base'/>
+          <link name='arm'><collision><origin xyz='0.5 0 0'/><geometry><sphere radius='0.1'/></geometry>
+          </collision></link>
+          <joint name='wrist' type='revolute'><parent link='base'/><child link='arm'/><axis xyz='0 0 1'/>
+          <limit lower='-6.28' upper='6.28' effort='1' velocity='3'/></joint></robot>"""
+        self.arm.extra = [("world", "wide/base", 9.0, 0.0), ("wide/base", "wide/arm", 0.0, 3.5)]
+        self.proximity.apply_obstacles(obstacles.add("far", obstacles.sphere(0.1), position=(9.5, 0, 0)))
+        self.proximity.apply_robots(robots.add("wide", urdf=urdf))
+        states = rospy.Publisher("/wide/joint_states", JointState, queue_size=1)
+        try:
+            wait(lambda: self.proximity.pairs().usable, "the frames of the robot")
+
+            def verdict(told):
+                for value in told:
+                    states.publish(JointState(name=["wrist"], position=[value]))
+                path = self.proximity.guard("wide", ["wrist"], [[3.5], [3.5]], [5, 30])
+                return path.response.verdict
+
+            self.assertEqual(verdict([]), Verdict.UNKNOWN)
+            wait(lambda: states.get_num_connections() > 0, "a subscriber of the joint states")
+            wait(lambda: verdict([3.5]) == Verdict.CLEAR, "a free path")
+            wait(lambda: verdict([3.5 - 2 * math.pi]) == Verdict.HIT, "the conflict on the way around")
+        finally:
+            self.guard(robot="wide")
+            self.proximity.apply_robots(robots.remove("wide"))
+            self.proximity.apply_obstacles(obstacles.remove("far"))
+            self.arm.extra = []
 
     # Claim: a message whose times are all over changes nothing, as controllers ignore it.
     def test_a_path_of_the_past_is_ignored(self):

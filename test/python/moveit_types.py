@@ -49,6 +49,18 @@ FIELDS = {
     "control_msgs/FollowJointTrajectoryActionGoal": """Header header
         actionlib_msgs/GoalID goal_id
         FollowJointTrajectoryGoal goal""",
+    "control_msgs/FollowJointTrajectoryResult": """int32 error_code
+        string error_string
+        int32 SUCCESSFUL=0
+        int32 INVALID_GOAL=-1
+        int32 INVALID_JOINTS=-2
+        int32 OLD_HEADER_TIMESTAMP=-3
+        int32 PATH_TOLERANCE_VIOLATED=-4
+        int32 GOAL_TOLERANCE_VIOLATED=-5""",
+    "control_msgs/FollowJointTrajectoryActionResult": """Header header
+        actionlib_msgs/GoalStatus status
+        FollowJointTrajectoryResult result""",
+    "actionlib_msgs/GoalStatusArray": "Header header\nGoalStatus[] status_list",
     "moveit_msgs/AllowedCollisionEntry": "bool[] enabled",
     "moveit_msgs/AllowedCollisionMatrix": """string[] entry_names
         AllowedCollisionEntry[] entry_values

@@ -23,6 +23,7 @@ class Arm:
         self.angle, self.publishes = 0.0, True
         self.twin_at = None  # [m] x of the base of the robot 'twin', an equal arm at rest; None: nobody publishes it
         self.twin_publishes = True
+        self.extra = []  # further transforms: (parent, child, x [m], turn about z [rad])
         self._static = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
         self._static.publish(TFMessage([transform("world", "base", 0.0), transform("hand", "tcp", 0.0)]))
         self._moving = rospy.Publisher("/tf", TFMessage, queue_size=1)
@@ -36,6 +37,8 @@ class Arm:
             if self.twin_at is not None and self.twin_publishes:
                 poses += [transform("world", "twin/base", self.twin_at), transform("twin/base", "twin/arm", 0.0),
                           transform("twin/arm", "twin/hand", 1.25), transform("twin/hand", "twin/finger", 0.25)]
+            poses += [transform(parent, child, x, (math.sin(turn / 2), math.cos(turn / 2)))
+                      for parent, child, x, turn in self.extra]
             try:
                 if self.publishes:
                     self._moving.publish(TFMessage(poses))

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <utility>
 
+#include "node/guard/guarded_joints.h"
 #include "node/guard/path_deviation.h"
 #include "node/guard/path_start.h"
 #include "node/messages/conflicts_message.h"
 #include "node/services/guarded.h"
-#include "node/states/present_joints.h"
 #include "node/states/robot_choice.h"
 
 namespace hgrid {
@@ -43,16 +43,28 @@ void checkJoints(const RobotPath& path, const Kinematics& kinematics) {
 
 }  // namespace
 
-Guard::Guard(ros::NodeHandle private_node, Commons& commons, const TransformLookup& transforms)
+Guard::Guard(ros::NodeHandle private_node, Commons& commons, const TransformLookup& transforms,
+             const JointStates& joint_states)
     : commons_(commons),
       transforms_(transforms),
+      joint_states_(joint_states),
       publisher_(private_node.advertise<msg::Conflicts>("conflicts", 1, true)),
       thread_([this](const std::shared_ptr<const Tick>& tick) {
         guarded(commons_.ledger, "guard.check.failed", [&] { publish(*tick); });
       }) {}
 
-std::shared_ptr<const RobotPath> Guard::follow(const std::string& source, RobotPath path, Time start,
-                                               const Tick& tick) {
+std::shared_ptr<const RobotPath> Guard::follow(const PathSource& source, RobotPath path, Time start, const Tick& tick,
+                                               GoalPhase phase) {
+  return paths_.put(source, prepared(std::move(path), start, tick), tick, phase);
+}
+
+void Guard::begin(const PathSource& source, RobotPath path, Time start, const Tick& tick) {
+  const auto waiting = paths_.waiting(source, path.robot);
+  if (waiting != nullptr) paths_.replace(waiting, prepared(std::move(path), start, tick));
+}
+
+/// Checks a path and adds what the robot does before its first point. @throws Refusal as follow()
+RobotPath Guard::prepared(RobotPath path, Time start, const Tick& tick) const {
   const int most = tick.settings->params.max_batch;
   if (path.points() > static_cast<std::size_t>(most)) {
     throw Refusal(Code::limit, "the path has " + std::to_string(path.points()) + " points; at most " +
@@ -70,16 +82,23 @@ std::shared_ptr<const RobotPath> Guard::follow(const std::string& source, RobotP
                                           " before now; its last time must be later");
   }
   const std::shared_ptr<const RobotPath> before = paths_.of(robot.name);
-  addStart(path, now, std::max(start, now), robot, presentJoints(robot, {}, tick, transforms_).values, before.get());
-  return paths_.put(source, std::move(path), tick);
+  GuardedJoints present = guardedJoints(robot, tick, transforms_, joint_states_);
+  // Where the turn of a joint is not known, the path is UNKNOWN. Any turn will do then.
+  for (std::size_t i = 0; i < path.joints.size(); ++i) {
+    const auto index = static_cast<std::size_t>(robot.read->joints->kinematics->find(path.joints[i]));
+    if (!present.turn_hidden[index]) continue;
+    present.values[index] = path.positions[i] - std::remainder(path.positions[i] - present.values[index], 2.0 * M_PI);
+  }
+  addStart(path, now, std::max(start, now), robot, present.values, before.get());
+  return path;
 }
 
-void Guard::markUnreadable(const std::string& source, const std::string& robot, const std::string& why,
-                           const Tick& tick) {
+void Guard::markUnreadable(const PathSource& source, const std::string& robot, const std::string& why, const Tick& tick,
+                           GoalPhase phase) {
   RobotPath lost;
   lost.robot = robot;
-  lost.unread = why;
-  paths_.put(source, std::move(lost), tick);
+  lost.doubt = why;
+  paths_.put(source, std::move(lost), tick, phase);
 }
 
 PathAnswer Guard::check(const std::shared_ptr<const RobotPath>& path, const Tick& tick) {
@@ -99,16 +118,17 @@ void Guard::see(const std::shared_ptr<const Tick>& tick) {
   if (thread_.give(tick)) commons_.ledger.count("guard.skipped");
 }
 
-/// Returns the paths that robots follow. A path does not end before its robot is at its end.
+/// Returns the paths that robots follow.
 RobotPaths Guard::currentPaths(const Tick& tick) {
-  return paths_.current(tick, [&](const RobotPath& path) {
+  return paths_.current(tick, [&](const RobotPath& path) -> std::optional<bool> {
     try {
       const LoadedRobot& robot = robotNamed(path.robot, tick);
-      const PresentJoints present = presentJoints(robot, {}, tick, transforms_);
+      const GuardedJoints present = guardedJoints(robot, tick, transforms_, joint_states_);
+      if (!present.doubt.empty() || !hiddenTurnOf(path, robot, present).empty()) return {};
       const double most = tick.settings->params.guard_deviation;
-      return present.doubt.empty() && deviationOf(path, robot, present.values, tick.snapshot->stamp(), most).empty();
+      return deviationOf(path, robot, present.values, tick.snapshot->stamp(), most).empty();
     } catch (const Refusal&) {
-      return false;  // nobody knows where the robot is
+      return {};  // nobody knows where the robot is
     }
   });
 }
@@ -121,7 +141,7 @@ std::vector<PathAnswer> Guard::check(const RobotPaths& paths, const Tick& tick) 
         paths, tick,
         {params.guard_ahead, params.guard_deviation,
          std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(budget)},
-        transforms_, commons_.narrow_phase);
+        transforms_, joint_states_, commons_.narrow_phase);
   } catch (...) {
     // The last message must not stand: it may say CLEAR.
     const Refusal why = commons_.ledger.fault("guard.check.failed");

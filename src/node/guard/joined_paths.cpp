@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "node/guard/guarded_joints.h"
 #include "node/guard/path_deviation.h"
 #include "node/states/followers.h"
 #include "node/states/present_joints.h"
@@ -35,11 +36,12 @@ void checkSize(std::size_t states, std::size_t joints) {
 
 }  // namespace
 
-JoinedPaths::JoinedPaths(const RobotPaths& paths, const Tick& tick, double deviation, const TransformLookup& transforms)
+JoinedPaths::JoinedPaths(const RobotPaths& paths, const Tick& tick, double deviation, const TransformLookup& transforms,
+                         const JointStates& joint_states)
     : tick_(tick), deviation_(deviation) {
   for (const auto& path : paths) {
     try {
-      add(*path, transforms);
+      add(*path, transforms, joint_states);
     } catch (const Refusal& refusal) {
       if (doubt_.empty()) doubt_ = refusal.what();
     }
@@ -71,12 +73,16 @@ StateBatch JoinedPaths::states(Time begin, Time end, std::vector<Time>& times) c
   return batch;
 }
 
-void JoinedPaths::add(const RobotPath& path, const TransformLookup& transforms) {
+void JoinedPaths::add(const RobotPath& path, const TransformLookup& transforms, const JointStates& joint_states) {
   const LoadedRobot& robot = robotNamed(path.robot, tick_);
-  const PresentJoints present = presentJoints(robot, {}, tick_, transforms);
+  const GuardedJoints present = guardedJoints(robot, tick_, transforms, joint_states);
   const PresentPose root = presentRoot(robot, tick_, transforms);
-  const std::string doubts[] = {path.unread, present.doubt, root.doubt,
+  const std::string doubts[] = {path.doubt,
+                                present.doubt,
+                                root.doubt,
+                                hiddenTurnOf(path, robot, present),
                                 deviationOf(path, robot, present.values, tick_.snapshot->stamp(), deviation_),
+                                unplannedMotionOf(path, robot, tick_, transforms),
                                 followerOf(robot, valuesOf(path), false, {}, tick_, transforms)};
   for (const std::string& doubt : doubts) {
     if (doubt_.empty()) doubt_ = doubt;

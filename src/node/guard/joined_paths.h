@@ -11,6 +11,7 @@
 #include "hgrid_proximity/bodies/joined_robots.h"
 #include "hgrid_proximity/bodies/kinematics.h"
 #include "hgrid_proximity/queries/state_checker.h"
+#include "node/guard/joint_states.h"
 #include "node/guard/robot_path.h"
 #include "node/tf/transform_lookup.h"
 #include "node/tick/tick.h"
@@ -23,7 +24,8 @@ class JoinedPaths {
   /// A robot whose joints are not known is left out.
   /// @param paths      paths of different robots; `paths` and `tick` must outlive this object
   /// @param deviation  [rad or m] how far a joint may be from its path
-  JoinedPaths(const RobotPaths& paths, const Tick& tick, double deviation, const TransformLookup& transforms);
+  JoinedPaths(const RobotPaths& paths, const Tick& tick, double deviation, const TransformLookup& transforms,
+              const JointStates& joint_states);
 
   /// Returns why nobody knows where one of the robots will be; empty: it is known.
   const std::string& doubt() const { return doubt_; }
@@ -37,7 +39,7 @@ class JoinedPaths {
   StateBatch states(Time begin, Time end, std::vector<Time>& times) const;
 
  private:
-  void add(const RobotPath& path, const TransformLookup& transforms);
+  void add(const RobotPath& path, const TransformLookup& transforms, const JointStates& joint_states);
   void divide(std::vector<Time>& times) const;
 
   std::vector<const RobotPath*> paths_;  // of the joined robots

@@ -38,9 +38,9 @@ PathAnswer doubted(PathAnswer answer, const std::string& doubt) {
 }  // namespace
 
 std::vector<PathAnswer> checkPaths(const RobotPaths& paths, const Tick& tick, const PathLimits& limits,
-                                   const TransformLookup& transforms,
+                                   const TransformLookup& transforms, const JointStates& joint_states,
                                    const std::shared_ptr<const NarrowPhase>& narrow_phase) {
-  const JoinedPaths joined(paths, tick, limits.deviation, transforms);
+  const JoinedPaths joined(paths, tick, limits.deviation, transforms, joint_states);
   const std::string& doubt = joined.doubt();
   std::vector<PathAnswer> answers(paths.size(), {Verdict::unknown, doubt, 0.0, {}});
   const Time now = tick.made.ros;

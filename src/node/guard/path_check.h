@@ -11,6 +11,7 @@
 
 #include "hgrid_proximity/narrow/narrow_phase.h"
 #include "hgrid_proximity/queries/query_answer.h"
+#include "node/guard/joint_states.h"
 #include "node/guard/robot_path.h"
 #include "node/tf/transform_lookup.h"
 #include "node/tick/tick.h"
@@ -50,7 +51,7 @@ struct PathLimits {
 /// @param paths  paths of different robots
 /// @returns one answer for each path
 std::vector<PathAnswer> checkPaths(const RobotPaths& paths, const Tick& tick, const PathLimits& limits,
-                                   const TransformLookup& transforms,
+                                   const TransformLookup& transforms, const JointStates& joint_states,
                                    const std::shared_ptr<const NarrowPhase>& narrow_phase);
 
 }  // namespace hgrid

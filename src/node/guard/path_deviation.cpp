@@ -7,13 +7,8 @@
 namespace hgrid {
 
 double nearestTo(double expected, double present, const JointVariable& variable) {
-  constexpr double kTurn = 2.0 * M_PI, kSlack = 1e-6;  // [rad]
-  if (!variable.is_angle || variable.is_mimicked) return present;
-  const double turned = expected - std::remainder(expected - present, kTurn);
-  if (turned >= variable.lower - kSlack && turned <= variable.upper + kSlack) return turned;
-  // The nearest value is beyond a limit, so the next one on the other side of the expected value may be the nearest.
-  const double other = turned < expected ? turned + kTurn : turned - kTurn;
-  return other >= variable.lower - kSlack && other <= variable.upper + kSlack ? other : present;
+  if (!variable.turnsFreely()) return present;
+  return expected - std::remainder(expected - present, 2.0 * M_PI);
 }
 
 std::string deviationOf(const RobotPath& path, const LoadedRobot& robot, const std::vector<double>& present, Time time,

@@ -11,9 +11,8 @@
 
 namespace hgrid {
 
-/// Returns the value of a variable that is nearest to an expected value and means the same as `present`. tf does not
-/// tell full turns apart: an angle of 4 rad looks like one of -2.28 rad. So the result may differ from `present` by
-/// full turns, but it is within the limits of the joint.
+/// Returns the value of a variable that is nearest to an expected value and means the same as `present`. If its joint
+/// turns freely, the result may differ from `present` by full turns.
 double nearestTo(double expected, double present, const JointVariable& variable);
 
 /// Returns a sentence that names a joint that is not where the path says; empty: all joints are.

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "node/guard/path_message_types.h"
-#include "node/wire/checked.h"
 
 namespace hgrid {
 namespace {
@@ -17,16 +16,8 @@ using moveit::JointTrajectory;
 using moveit::Release;
 
 constexpr const char* kJointTrajectory = "65b4f94a94d1ed67169da35a02f33d3f";
-constexpr const char* kActionGoal = "cff5c1d533bf2f82dd0138d57f4304bb";
 constexpr const char* kDisplayNoetic = "41936b74e168ba754279ae683ce3f121";
 constexpr const char* kDisplayMelodic = "c3c039261ab9e8a11457dac56b6316c8";
-
-template <class Message>
-Message read(const std::string& bytes) {
-  Checked<Message> message;
-  message.read(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
-  return message.value();
-}
 
 /// Makes one path from trajectories that follow one another, and that may have different joints.
 class Chain {
@@ -96,13 +87,18 @@ class Chain {
 
 PathCommand startedAt(Time start, RobotPath path) {
   for (Time& time : path.times) time += start;
-  return {std::move(path), start};
+  PathCommand command;
+  command.path = std::move(path);
+  command.start = start;
+  return command;
 }
 
 PathCommand commandOf(const JointTrajectory& trajectory, Time arrival) {
   const ros::Time stamp = trajectory.header.stamp;
-  return startedAt(stamp.isZero() ? arrival : Time(static_cast<std::int64_t>(stamp.toNSec())),
-                   Chain({&trajectory}).take());
+  PathCommand command = startedAt(stamp.isZero() ? arrival : Time(static_cast<std::int64_t>(stamp.toNSec())),
+                                  Chain({&trajectory}).take());
+  command.is_stamped = !stamp.isZero();
+  return command;
 }
 
 template <Release release>
@@ -115,7 +111,9 @@ PathCommand commandOf(const moveit::DisplayTrajectory<release>& display, Time ar
     }
     parts.push_back(&part.joint_trajectory);
   }
-  return startedAt(arrival, Chain(parts).take());
+  PathCommand command = startedAt(arrival, Chain(parts).take());
+  command.is_plan = true;
+  return command;
 }
 
 }  // namespace
@@ -128,10 +126,12 @@ Time timeOfPoint(Time start, const ros::Duration& from_start, std::size_t index)
 }
 
 PathCommand readPathMessage(const std::string& bytes, const std::string& md5, Time arrival) {
-  if (md5 == kJointTrajectory) return commandOf(read<JointTrajectory>(bytes), arrival);
-  if (md5 == kActionGoal) return commandOf(read<moveit::FollowJointTrajectoryActionGoal>(bytes).trajectory, arrival);
-  if (md5 == kDisplayNoetic) return commandOf(read<moveit::DisplayTrajectory<Release::noetic>>(bytes), arrival);
-  if (md5 == kDisplayMelodic) return commandOf(read<moveit::DisplayTrajectory<Release::melodic>>(bytes), arrival);
+  if (md5 == kJointTrajectory) return commandOf(readMessage<JointTrajectory>(bytes), arrival);
+  if (md5 == kActionGoal)
+    return commandOf(readMessage<moveit::FollowJointTrajectoryActionGoal>(bytes).trajectory, arrival);
+  if (md5 == kDisplayNoetic) return commandOf(readMessage<moveit::DisplayTrajectory<Release::noetic>>(bytes), arrival);
+  if (md5 == kDisplayMelodic)
+    return commandOf(readMessage<moveit::DisplayTrajectory<Release::melodic>>(bytes), arrival);
   throw Refusal(Code::unsupported,
                 "its type has the MD5 " + printable(md5) +
                     "; it must be trajectory_msgs/JointTrajectory, control_msgs/FollowJointTrajectoryActionGoal or "

@@ -20,8 +20,10 @@ Time timeOfPoint(Time start, const ros::Duration& from_start, std::size_t index)
 
 /// The path that a message commands or plans, and when it starts.
 struct PathCommand {
-  RobotPath path;  ///< without the name of the robot; without points: the robot stops
-  Time start;      ///< [ROS time] when the robot begins to move to the first point
+  RobotPath path;           ///< without the name of the robot; without points: the robot stops
+  Time start;               ///< [ROS time] when the robot begins to move to the first point
+  bool is_stamped = false;  ///< whether the message says when the path starts
+  bool is_plan = false;     ///< whether the message only shows what may be commanded later
 };
 
 /// Reads a message that commands or plans a path: trajectory_msgs/JointTrajectory,

@@ -7,12 +7,17 @@
 #include <ros/serialization.h>
 #include <std_msgs/Header.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "node/moveit/scene_types.h"
+#include "node/wire/checked.h"
 
 namespace hgrid {
+
+/// MD5 of control_msgs/FollowJointTrajectoryActionGoal.
+inline constexpr const char* kActionGoal = "cff5c1d533bf2f82dd0138d57f4304bb";
 
 /// Messages with paths of robots. Their names and fields are those of moveit_msgs and control_msgs, but these packages
 /// are not needed: a message type of ROS is identified by a hash of its fields (MD5).
@@ -58,6 +63,33 @@ struct FollowJointTrajectoryActionGoal {
   JointTrajectory trajectory;
   std::vector<JointTolerance> path_tolerance, goal_tolerance;
   ros::Duration goal_time_tolerance;
+};
+
+/// The fields of actionlib_msgs/GoalID.
+struct ActionGoalId {
+  ros::Time stamp;
+  std::string id;
+};
+
+/// The fields of actionlib_msgs/GoalStatus.
+struct ActionGoalStatus {
+  ActionGoalId goal;
+  std::uint8_t status = 0;
+  std::string text;
+};
+
+/// The fields of actionlib_msgs/GoalStatusArray.
+struct ActionGoalStatusArray {
+  std_msgs::Header header;
+  std::vector<ActionGoalStatus> status_list;
+};
+
+/// The fields of control_msgs/FollowJointTrajectoryActionResult, with those of its parts.
+struct FollowJointTrajectoryActionResult {
+  std_msgs::Header header;
+  ActionGoalStatus status;
+  std::int32_t error_code = 0;
+  std::string error_string;
 };
 
 }  // namespace moveit
@@ -137,5 +169,60 @@ struct Serializer<hgrid::moveit::FollowJointTrajectoryActionGoal> {
   ROS_DECLARE_ALLINONE_SERIALIZER
 };
 
+template <>
+struct Serializer<hgrid::moveit::ActionGoalId> {
+  template <typename Stream, typename Id>
+  static void allInOne(Stream& stream, Id id) {
+    stream.next(id.stamp);
+    stream.next(id.id);
+  }
+  ROS_DECLARE_ALLINONE_SERIALIZER
+};
+
+template <>
+struct Serializer<hgrid::moveit::ActionGoalStatus> {
+  template <typename Stream, typename Status>
+  static void allInOne(Stream& stream, Status status) {
+    stream.next(status.goal);
+    stream.next(status.status);
+    stream.next(status.text);
+  }
+  ROS_DECLARE_ALLINONE_SERIALIZER
+};
+
+template <>
+struct Serializer<hgrid::moveit::ActionGoalStatusArray> {
+  template <typename Stream, typename Array>
+  static void allInOne(Stream& stream, Array array) {
+    stream.next(array.header);
+    stream.next(array.status_list);
+  }
+  ROS_DECLARE_ALLINONE_SERIALIZER
+};
+
+template <>
+struct Serializer<hgrid::moveit::FollowJointTrajectoryActionResult> {
+  template <typename Stream, typename Result>
+  static void allInOne(Stream& stream, Result result) {
+    stream.next(result.header);
+    stream.next(result.status);
+    stream.next(result.error_code);
+    stream.next(result.error_string);
+  }
+  ROS_DECLARE_ALLINONE_SERIALIZER
+};
+
 }  // namespace serialization
 }  // namespace ros
+
+namespace hgrid {
+
+/// Returns the message in these bytes. @throws Refusal truncated
+template <class Message>
+Message readMessage(const std::string& bytes) {
+  Checked<Message> message;
+  message.read(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  return message.value();
+}
+
+}  // namespace hgrid

@@ -47,6 +47,23 @@ void checkPath(const RobotPath& path) {
   }
 }
 
+RobotPath withoutJoints(const RobotPath& path, const std::vector<std::string>& joints) {
+  RobotPath rest;
+  rest.robot = path.robot;
+  rest.doubt = path.doubt;
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < path.joints.size(); ++i) {
+    if (std::count(joints.begin(), joints.end(), path.joints[i]) == 0) kept.push_back(i);
+  }
+  if (kept.empty()) return rest;
+  rest.times = path.times;
+  for (const std::size_t i : kept) rest.joints.push_back(path.joints[i]);
+  for (std::size_t point = 0; point < path.points(); ++point) {
+    for (const std::size_t i : kept) rest.positions.push_back(path.positions[point * path.joints.size() + i]);
+  }
+  return rest;
+}
+
 std::shared_ptr<const RobotPath> mergePaths(const RobotPaths& newest_first) {
   if (newest_first.size() == 1) return newest_first.front();
   const auto result = std::make_shared<RobotPath>();
@@ -54,7 +71,7 @@ std::shared_ptr<const RobotPath> mergePaths(const RobotPaths& newest_first) {
   merged.robot = newest_first.front()->robot;
   std::vector<std::pair<const RobotPath*, std::size_t>> columns;  // a path and a joint of it, for each joint
   for (const auto& path : newest_first) {
-    if (merged.unread.empty()) merged.unread = path->unread;
+    if (merged.doubt.empty()) merged.doubt = path->doubt;
     for (std::size_t i = 0; i < path->joints.size(); ++i) {
       if (std::count(merged.joints.begin(), merged.joints.end(), path->joints[i]) > 0) continue;
       merged.joints.push_back(path->joints[i]);

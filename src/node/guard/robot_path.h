@@ -18,8 +18,8 @@ struct RobotPath {
   std::vector<std::string> joints;  ///< names of the variables, without the name of the robot
   std::vector<double> positions;    ///< [rad or m] one row of joints.size() values for each point
   std::vector<Time> times;          ///< [ROS time] when the robot is at each point, ascending
-  /// Why the newest command for the robot could not be read, so nobody knows where it moves; empty: it was read.
-  std::string unread;
+  /// Why the robot may move elsewhere, for example because its newest command could not be read; empty: it does not.
+  std::string doubt;
 
   std::size_t points() const { return times.size(); }
   /// Returns the position of a joint at a time.
@@ -33,6 +33,9 @@ void checkPath(const RobotPath& path);
 
 /// Largest number of positions that are read or checked at one time.
 inline constexpr std::size_t kMostPositions = 10000000;
+
+/// Returns a path without some of its joints.
+RobotPath withoutJoints(const RobotPath& path, const std::vector<std::string>& joints);
 
 /// Paths of different robots, or different paths of one robot; never null.
 using RobotPaths = std::vector<std::shared_ptr<const RobotPath>>;

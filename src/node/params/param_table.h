@@ -51,10 +51,12 @@ void visitParams(Visitor& v, Params& p) {
 
   v.section("Robots");
   v.robots("robots", p.robots,
-           "list of {name, description, semantic, tf_prefix}. name: name of the robot, required. description: name of "
-           "the parameter that holds the URDF, required. semantic: name of the parameter that holds the SRDF; empty: "
-           "there is no SRDF. tf_prefix: prefix of the robot's tf frames. Empty list: one robot named 'robot', from "
-           "robot_description and robot_description_semantic");
+           "list of {name, description, semantic, tf_prefix, joint_states}. name: name of the robot, required. "
+           "description: name of the parameter that holds the URDF, required. semantic: name of the parameter that "
+           "holds the SRDF; empty: there is no SRDF. tf_prefix: prefix of the robot's tf frames. joint_states: topic of "
+           "its sensor_msgs/JointState messages, which tell full turns of joints apart for ~guard; default: "
+           "joint_states in the namespace of description, or if it has none, in the namespace tf_prefix. Empty list: "
+           "one robot named 'robot', from robot_description and robot_description_semantic");
   v.flag("watch_descriptions", p.watch_descriptions,
          "whether to look about once per second whether a description has changed, and to load that robot again; "
          "~reload_robot always does");
@@ -346,7 +348,8 @@ void visitParams(Visitor& v, Params& p) {
       "list of {topic, robot}: topics with the paths that robots are commanded to follow. The messages may be "
       "trajectory_msgs/JointTrajectory, control_msgs/FollowJointTrajectoryActionGoal or "
       "moveit_msgs/DisplayTrajectory. robot: name of the robot; default 'robot'. A robot may have several topics, for "
-      "example one for each arm. A message without points ends the path of its topic");
+      "example one for each arm. A message without points ends the paths of its topic. Of an action, name the "
+      "topic .../goal: the node then also reads .../cancel, .../status and .../result");
   v.number("guard/ahead", p.guard_ahead, "s", 0.1, 600.0,
            "how far ahead the paths of robots are checked (~guard, ~conflicts)");
   v.number("guard/deviation", p.guard_deviation, "rad or m", 0.0, 1000.0,

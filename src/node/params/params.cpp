@@ -64,12 +64,14 @@ class Reader {
   }
   void robots(const char* name, std::vector<RobotParams>& value, const char*) {
     std::set<std::string> names;
-    forEach(name, "field of a robot (name, description, semantic, tf_prefix)", [&](ParamValue& element) {
+    forEach(name, "field of a robot (name, description, semantic, tf_prefix, joint_states)", [&](ParamValue& element) {
       RobotParams robot;
       robot.semantic.clear();  // the default parameter may belong to another robot
       readString(element, "description", robot.description, true);
       readString(element, "semantic", robot.semantic, false);
       readString(element, "tf_prefix", robot.tf_prefix, false);
+      readString(element, "joint_states", robot.joint_states, false);
+      if (!robot.joint_states.empty()) checkTopic(element, robot.joint_states);
       if (auto given = element.require("name")) {
         given->string(robot.name);
         try {

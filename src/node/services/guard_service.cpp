@@ -29,7 +29,7 @@ void GuardService::answer(ServiceCall<msg::Guard>& call) {
   for (std::size_t i = 0; i < request.time_from_start.size(); ++i) {
     path.times.push_back(timeOfPoint(start, request.time_from_start[i], i));
   }
-  const PathAnswer answer = guard_.check(guard_.follow("", std::move(path), start, tick), tick);
+  const PathAnswer answer = guard_.check(guard_.follow({}, std::move(path), start, tick), tick);
   auto& response = call.response;
   response.verdict = static_cast<std::uint8_t>(answer.verdict);
   response.reason = answer.reason;

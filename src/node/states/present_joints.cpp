@@ -12,18 +12,6 @@ namespace {
 
 constexpr double kMostApart = 1e-3;  // [m] and [rad] how far a pose on tf may be from the one that the joints give
 
-/// Returns the link whose joint decides where a joint stands: its own link, or that of the joint that it mimics.
-const RobotLink& masterOf(const RobotLink& link, const RobotModel& model) {
-  const RobotLink* master = &link;
-  for (std::size_t steps = 0; !master->mimic.empty() && steps < model.links.size(); ++steps) {
-    const auto found = std::find_if(model.links.begin(), model.links.end(),
-                                    [&](const RobotLink& other) { return other.joint == master->mimic; });
-    if (found == model.links.end()) break;  // the constructor of Kinematics refuses this
-    master = &*found;
-  }
-  return *master;
-}
-
 bool isNear(const Pose& a, const Pose& b) {
   const Pose apart = a.inverse() * b;
   return apart.translation().norm() <= kMostApart && std::abs(Eigen::AngleAxisd(apart.linear()).angle()) <= kMostApart;
@@ -113,6 +101,17 @@ class Reader {
 };
 
 }  // namespace
+
+const RobotLink& masterOf(const RobotLink& link, const RobotModel& model) {
+  const RobotLink* master = &link;
+  for (std::size_t steps = 0; !master->mimic.empty() && steps < model.links.size(); ++steps) {
+    const auto found = std::find_if(model.links.begin(), model.links.end(),
+                                    [&](const RobotLink& other) { return other.joint == master->mimic; });
+    if (found == model.links.end()) break;  // the constructor of Kinematics refuses this
+    master = &*found;
+  }
+  return *master;
+}
 
 PresentJoints presentJoints(const LoadedRobot& robot, const std::map<std::string, double>& given, const Tick& tick,
                             const TransformLookup& transforms) {

@@ -12,6 +12,9 @@
 
 namespace hgrid {
 
+/// Returns the link whose joint decides where a joint stands: its own link, or that of the joint that it mimics.
+const RobotLink& masterOf(const RobotLink& link, const RobotModel& model);
+
 /// Where the joints of a robot stand at the time of a tick.
 struct PresentJoints {
   std::vector<double> values;  ///< one for each variable (see JointVariable)

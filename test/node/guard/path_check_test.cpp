@@ -11,9 +11,13 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "hgrid_proximity/adapters/urdf.h"
 #include "hgrid_proximity/narrow/core_narrow_phase.h"
+#include "src/node/guard/guarded_joints.h"
+#include "src/node/guard/path_start.h"
 #include "src/node/guard/robot_path.h"
 #include "test/support/models.h"
 #include "test/support/scenes.h"
@@ -36,9 +40,9 @@ constexpr double kAhead = 10.0;  // [s]
 /// Arms among spheres, all at the same height.
 class Arms {
  public:
-  explicit Arms(std::size_t count) {
+  explicit Arms(std::size_t count, const std::string& urdf = kArm) {
     const auto read = std::make_shared<ReadDescription>();
-    read->model = readUrdf(kArm, nullptr);
+    read->model = readUrdf(urdf, nullptr);
     for (RobotLink& link : read->model.links) {
       for (BodyShape& shape : link.shapes) shape.solid = narrow_phase->solidOf(shape.shape);
     }
@@ -63,13 +67,17 @@ class Arms {
         robot->bodies.push_back(body);
       }
       entries[name].model = robot;
+      RobotSpec spec;
+      spec.params.tf_prefix = name;
+      entries[name].spec = std::make_shared<const RobotSpec>(spec);
       robots.push_back(robot);
     }
     tick.robots = std::make_shared<const RobotEntries>(entries);
   }
 
   /// Puts a robot into the scene, and its transforms into the store.
-  void stand(std::size_t number, const Eigen::Vector3d& base, double angle) {
+  /// @param before  angle of its arm one second ago; nullopt: there is no transform of this time
+  void stand(std::size_t number, const Eigen::Vector3d& base, double angle, std::optional<double> before = {}) {
     const LoadedRobot& robot = *robots[number];
     const Pose world_from_base = test::at(base.x(), base.y()), base_from_arm{Eigen::AngleAxisd(angle, axis)};
     for (const Body& body : robot.bodies) {
@@ -80,7 +88,13 @@ class Arms {
     of_arm.rotation = Eigen::AngleAxisd(angle, axis);
     transforms.fix(transforms.admit("world", robot.name + "/base"), "world", of_base);
     const std::uint32_t arm = transforms.admit(robot.name + "/base", robot.name + "/arm");
-    transforms.advance(arm, robot.name + "/base", {kNow, FrameTable::kNone, false, of_arm}, kNow);
+    if (before) {
+      FramePose was;
+      was.rotation = Eigen::AngleAxisd(*before, axis);
+      const Time then = kNow - std::chrono::seconds(1);
+      transforms.advance(arm, robot.name + "/base", {then, FrameTable::kNone, false, was}, then);
+    }
+    transforms.advance(arm, robot.name + "/base", {kNow, FrameTable::kNone, before.has_value(), of_arm}, kNow);
     bases.push_back(base);
     angles.push_back(angle);
   }
@@ -95,7 +109,7 @@ class Arms {
     PathLimits limits;
     limits.ahead = kAhead;
     limits.deadline = std::chrono::steady_clock::now() + std::chrono::seconds(100);
-    return checkPaths(paths, tick, limits, TransformLookup(transforms), narrow_phase);
+    return checkPaths(paths, tick, limits, TransformLookup(transforms), joint_states, narrow_phase);
   }
 
   /// Returns the center of the sphere on an arm at a time.
@@ -126,6 +140,7 @@ class Arms {
   std::shared_ptr<NarrowPhase> narrow_phase = makeCoreNarrowPhase();
   Scene scene{SceneOptions{}};
   TransformStore transforms{std::chrono::seconds(10), 100};
+  JointStates joint_states;
   std::vector<std::shared_ptr<const LoadedRobot>> robots;
   std::vector<Eigen::Vector3d> bases, spheres;
   std::vector<double> angles;
@@ -228,6 +243,152 @@ TEST(CheckPaths, LeavesAllUnknownIfARobotIsNotOnItsPath) {
     EXPECT_EQ(answer.verdict, Verdict::unknown);
     EXPECT_NE(answer.reason.find("'robot1'"), std::string::npos) << answer.reason;
     EXPECT_EQ(answer.free_for, 0.0);
+  }
+}
+
+/// An arm whose limits allow two turns stands at -2.78 rad, or at 3.5 rad, which looks the same on tf. Its path goes to
+/// 3.5 rad. A sphere is in the way from -2.78 rad.
+class Turns : public ::testing::Test {
+ protected:
+  Turns() : arms_(1, withLimits(kArm, "-6.28", "6.28")) {
+    arms_.stand(0, Eigen::Vector3d::Zero(), kLooks);
+    arms_.addSphere({kReach, 0.0, 0.0});
+  }
+  static std::string withLimits(std::string urdf, const std::string& lower, const std::string& upper) {
+    urdf.replace(urdf.find("lower='-3'"), 10, "lower='" + lower + "'");
+    return urdf.replace(urdf.find("upper='3'"), 9, "upper='" + upper + "'");
+  }
+  /// Passes a message of joint states.
+  void tell(double position, const std::string& joint = "shoulder", Time stamp = kNow,
+            const std::string& topic = "robot0/joint_states") {
+    moveit::JointState message;
+    message.header.stamp.fromNSec(std::uint64_t(stamp.count()));
+    message.name = {"other", joint};
+    message.position = {0.0, position};
+    arms_.joint_states.take(topic, message, kNow);
+  }
+  /// Returns the answer for a path that begins where the arm is now.
+  PathAnswer answer() {
+    arms_.tick.snapshot = arms_.scene.commit(kNow, {});
+    const LoadedRobot& robot = *arms_.robots[0];
+    const TransformLookup lookup(arms_.transforms);
+    RobotPath path;
+    path.robot = robot.name;
+    path.joints = {"shoulder"};
+    path.positions = {3.5};
+    path.times = {kNow + std::chrono::seconds(5)};
+    const GuardedJoints joints = guardedJoints(robot, arms_.tick, lookup, arms_.joint_states);
+    addStart(path, kNow, kNow, robot, joints.values, nullptr);
+    return arms_.check({std::make_shared<const RobotPath>(path)}).front();
+  }
+  static constexpr double kLooks = 3.5 - 2.0 * M_PI;
+
+  Arms arms_;
+};
+
+/// Claim: without joint states, every turn that the limits allow is possible, so the path is not clear.
+TEST_F(Turns, AreNotKnownFromTfAlone) {
+  EXPECT_NE(answer().verdict, Verdict::clear);
+  EXPECT_NE(answer().free_for, kAhead);
+  Arms free(1, withLimits(kArm, "-6.28", "6.28"));
+  free.stand(0, Eigen::Vector3d::Zero(), 3.5);
+  RobotPath path;
+  path.robot = "robot0";
+  path.joints = {"shoulder"};
+  path.positions = {3.5};
+  path.times = {kNow};
+  const PathAnswer unknown = free.check({std::make_shared<const RobotPath>(path)}).front();
+  EXPECT_EQ(unknown.verdict, Verdict::unknown);
+  EXPECT_NE(unknown.reason.find("'robot0/joint_states'"), std::string::npos) << unknown.reason;
+}
+
+/// Claim: joint states tell the turn.
+TEST_F(Turns, AreToldByJointStates) {
+  tell(3.5);
+  EXPECT_EQ(answer().verdict, Verdict::clear) << answer().reason;
+  tell(kLooks);
+  EXPECT_EQ(answer().verdict, Verdict::hit);
+}
+
+/// Claim: joint states of another time, another robot or another joint, and those that are not finite, tell nothing.
+TEST_F(Turns, AreNotToldByOtherMessages) {
+  tell(3.5, "shoulder", kNow - std::chrono::seconds(1));
+  EXPECT_NE(answer().verdict, Verdict::clear) << "too old";
+  tell(3.5, "elbow");
+  EXPECT_NE(answer().verdict, Verdict::clear);
+  tell(1.0);
+  EXPECT_NE(answer().verdict, Verdict::clear) << "tf shows another angle, so it is another robot";
+  tell(3.5, "shoulder", kNow, "joint_states");
+  EXPECT_NE(answer().verdict, Verdict::clear) << "another topic";
+  tell(3.5);
+  EXPECT_EQ(answer().verdict, Verdict::clear);
+  tell(NAN);
+  EXPECT_NE(answer().verdict, Verdict::clear);
+}
+
+/// Claim: limits of less than a turn tell the turn.
+TEST_F(Turns, AreKnownIfTheLimitsAllowOnlyOne) {
+  Arms arms(1, withLimits(kArm, "0", "6"));
+  arms.stand(0, Eigen::Vector3d::Zero(), 3.5);
+  RobotPath path;
+  path.robot = "robot0";
+  path.joints = {"shoulder"};
+  path.positions = {3.5};
+  path.times = {kNow};
+  EXPECT_EQ(arms.check({std::make_shared<const RobotPath>(path)}).front().verdict, Verdict::clear);
+}
+
+TEST(JointStatesTopic, IsWhereTheDescriptionIs) {
+  const auto topic = [](const std::string& description, const std::string& prefix, const std::string& given = {}) {
+    RobotParams params;
+    params.description = description;
+    params.tf_prefix = prefix;
+    params.joint_states = given;
+    return jointStatesTopic(params);
+  };
+  EXPECT_EQ(topic("robot_description", ""), "joint_states");
+  EXPECT_EQ(topic("/robot_description", ""), "/joint_states");
+  EXPECT_EQ(topic("left/robot_description", "l"), "left/joint_states");
+  EXPECT_EQ(topic("/left/robot_description", ""), "/left/joint_states");
+  EXPECT_EQ(topic("robot_description", "left"), "left/joint_states");
+  EXPECT_EQ(topic("left/robot_description", "left", "states"), "states");
+}
+
+/// Claim: a joint that no path moves must rest, as tf shows; if tf does not show it, nobody knows.
+TEST(UnplannedMotion, IsSeenOnTf) {
+  const auto motion = [](std::optional<double> before, double now, const std::vector<std::string>& joints = {}) {
+    Arms arms(1);
+    arms.stand(0, Eigen::Vector3d::Zero(), now, before);
+    arms.tick.snapshot = arms.scene.commit(kNow, {});
+    RobotPath path;
+    path.robot = "robot0";
+    path.joints = joints;
+    return unplannedMotionOf(path, *arms.robots[0], arms.tick, TransformLookup(arms.transforms));
+  };
+  EXPECT_EQ(motion(0.5, 0.5), "");
+  EXPECT_EQ(motion(0.5, 0.509), "") << "noise of a sensor";
+  EXPECT_NE(motion(0.5, 0.52).find("'shoulder' of robot 'robot0' has no path, but it moves"), std::string::npos);
+  EXPECT_NE(motion(std::nullopt, 0.5).find("tf does not tell"), std::string::npos);
+  EXPECT_EQ(motion(0.5, 1.5, {"shoulder"}), "");
+}
+
+/// Claim: while a joint that has no path moves, no path is clear.
+TEST(CheckPaths, IsUnknownWhileAJointWithoutPathMoves) {
+  for (const double before : {0.0, -0.5}) {
+    Arms arms(2);
+    arms.stand(0, Eigen::Vector3d::Zero(), 0.0, before);
+    arms.stand(1, Eigen::Vector3d(5.0, 0.0, 0.0), 0.0);
+    auto none = std::make_shared<RobotPath>(), rests = std::make_shared<RobotPath>();
+    none->robot = "robot0";
+    none->times = {kNow};
+    rests->robot = "robot1";
+    rests->joints = {"shoulder"};
+    rests->positions = {0.0};
+    rests->times = {kNow};
+    const std::vector<PathAnswer> answers = arms.check({none, rests});
+    for (const PathAnswer& answer : answers) {
+      EXPECT_EQ(answer.verdict, before == 0.0 ? Verdict::clear : Verdict::unknown) << answer.reason;
+    }
   }
 }
 

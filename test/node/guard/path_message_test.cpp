@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "src/node/guard/action_message.h"
 #include "src/node/guard/path_message_types.h"
 #include "test/support/random.h"
 #include "test/support/refusals.h"
@@ -138,6 +139,55 @@ TEST(PathMessage, RefusesEveryCutAndSurvivesRandomBytes) {
     read += refusalOf([&] { readPathMessage(bytes, kDisplay, kArrival); }) == Code::ok;
   }
   EXPECT_GT(read, 1000);
+}
+
+constexpr const char* kCancel = "302881f31927c1df708a2dbab0e80ee8";
+constexpr const char* kStatus = "8b2b82f13216d0a8ea88bd3af735e619";
+constexpr const char* kResult = "c4fb3b000dc9da4fd99699380efcc5d9";
+
+moveit::ActionGoalStatus statusOf(const std::string& id, int second, GoalStatus::Value value) {
+  moveit::ActionGoalStatus status;
+  status.goal.id = id;
+  status.goal.stamp = ros::Time(double(second));
+  status.status = value;
+  status.text = "why";
+  return status;
+}
+
+TEST(ActionMessage, IsReadFromAllTopicsOfAnAction) {
+  moveit::FollowJointTrajectoryActionGoal goal;
+  goal.goal_id = "a";
+  goal.goal_stamp = ros::Time(2.0);
+  goal.trajectory = trajectory({"elbow"}, {{1.0, {0.5}}});
+  EXPECT_EQ(readGoalId(bytesOf(goal), kGoal)->id, "a");
+  EXPECT_EQ(readGoalId(bytesOf(goal), kGoal)->stamp, std::chrono::seconds(2));
+  EXPECT_FALSE(readGoalId(bytesOf(goal.trajectory), kTrajectory).has_value());
+  const moveit::ActionGoalStatus status = statusOf("b", 3, GoalStatus::PREEMPTED);
+  EXPECT_EQ(readCancel(bytesOf(status.goal), kCancel).id, "b");
+  EXPECT_EQ(readCancel(bytesOf(status.goal), kCancel).stamp, std::chrono::seconds(3));
+  moveit::FollowJointTrajectoryActionResult result;
+  result.status = status;
+  EXPECT_EQ(readResult(bytesOf(result), kResult).goal.id, "b");
+  EXPECT_EQ(readResult(bytesOf(result), kResult).status, GoalStatus::PREEMPTED);
+  moveit::ActionGoalStatusArray array;
+  array.status_list = {status, statusOf("c", 4, GoalStatus::ACTIVE)};
+  const std::vector<GoalStatus> all = readStatus(bytesOf(array), kStatus);
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[1].goal.id, "c");
+  EXPECT_EQ(all[1].status, GoalStatus::ACTIVE);
+}
+
+TEST(ActionMessage, OfAnotherTypeOrCutIsRefused) {
+  moveit::ActionGoalStatusArray array;
+  array.status_list = {statusOf("b", 3, GoalStatus::PREEMPTED)};
+  const std::string bytes = bytesOf(array);
+  for (std::size_t length = 0; length < bytes.size(); ++length) {
+    EXPECT_EQ(refusalOf([&] { readStatus(bytes.substr(0, length), kStatus); }), Code::truncated);
+    EXPECT_EQ(refusalOf([&] { readResult(bytes.substr(0, length), kResult); }), Code::truncated);
+  }
+  EXPECT_EQ(refusalOf([&] { readStatus(bytes, kCancel); }), Code::unsupported);
+  EXPECT_EQ(refusalOf([&] { readCancel(bytes, kStatus); }), Code::unsupported);
+  EXPECT_EQ(refusalOf([&] { readResult(bytes, ""); }), Code::unsupported);
 }
 
 }  // namespace

@@ -105,8 +105,8 @@ TEST(ParamErrors, ANumberOutOfRangeIsNamedWithTheRange) {
 TEST(ParamErrors, AnUnknownNameIsRefusedWhereverItStands) {
   expectRefused(dict({{"marign", 0.1}}), "~marign is not a parameter of this node; the name may be misspelled");
   expectRefused(dict({{"robots", list({dict({{"name", "a"}, {"description", "d"}, {"urdf", "x"}})})}}),
-                "~robots[0]/urdf is not a field of a robot (name, description, semantic, tf_prefix); the name may be "
-                "misspelled");
+                "~robots[0]/urdf is not a field of a robot (name, description, semantic, tf_prefix, joint_states); the "
+                "name may be misspelled");
   expectRefused(
       dict({{"pair_kinds", list({Value("self"), Value("all")})}}),
       "~pair_kinds contains 'all'; allowed kinds are self, robot_robot, robot_obstacle, robot_map, moving_obstacle");
