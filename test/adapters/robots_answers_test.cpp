@@ -61,8 +61,8 @@ std::string text(double number) {
 }
 
 /// Returns a line for each near pair: names and gap. Then a line for each measured pair: names, status, distance and
-/// depth. Nearest points are left out: FCL finds those of a cylinder by iteration, and its versions 0.6.1 (Debian 11) and
-/// 0.7.0 (Debian 12) stop up to 2e-6 m from each other, at the same distance.
+/// depth. Nearest points are left out: FCL finds those of a cylinder by iteration, and its versions 0.6.1 (Debian 11)
+/// and 0.7.0 (Debian 12) stop up to 2e-6 m from each other, at the same distance.
 std::string linesOf(const Snapshot& snapshot, const PairDistances& distances) {
   const BodyList& bodies = snapshot.structure().bodies;
   const auto names = [&](const auto& pair) { return bodies[pair.first].name + " " + bodies[pair.second].name + " "; };

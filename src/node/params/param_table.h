@@ -50,13 +50,14 @@ void visitParams(Visitor& v, Params& p) {
            "folder of the node, which is ROS_HOME under roslaunch. Empty: nothing is stored");
 
   v.section("Robots");
-  v.robots("robots", p.robots,
-           "list of {name, description, semantic, tf_prefix, joint_states}. name: name of the robot, required. "
-           "description: name of the parameter that holds the URDF, required. semantic: name of the parameter that "
-           "holds the SRDF; empty: there is no SRDF. tf_prefix: prefix of the robot's tf frames. joint_states: topic of "
-           "its sensor_msgs/JointState messages, which tell full turns of joints apart for ~guard; default: "
-           "joint_states in the namespace of description, or if it has none, in the namespace tf_prefix. Empty list: "
-           "one robot named 'robot', from robot_description and robot_description_semantic");
+  v.robots(
+      "robots", p.robots,
+      "list of {name, description, semantic, tf_prefix, joint_states}. name: name of the robot, required. "
+      "description: name of the parameter that holds the URDF, required. semantic: name of the parameter that "
+      "holds the SRDF; empty: there is no SRDF. tf_prefix: prefix of the robot's tf frames. joint_states: topic of "
+      "its sensor_msgs/JointState messages, which tell full turns of joints apart for ~guard; default: "
+      "joint_states in the namespace of description, or if it has none, in the namespace tf_prefix. Empty list: "
+      "one robot named 'robot', from robot_description and robot_description_semantic");
   v.flag("watch_descriptions", p.watch_descriptions,
          "whether to look about once per second whether a description has changed, and to load that robot again; "
          "~reload_robot always does");

@@ -17,15 +17,15 @@
 #include <hgrid_proximity/Code.h>
 #include <hgrid_proximity/Conflicts.h>
 #include <hgrid_proximity/Counter.h>
+#include <hgrid_proximity/DistanceField.h>
 #include <hgrid_proximity/Distances.h>
 #include <hgrid_proximity/Events.h>
-#include <hgrid_proximity/DistanceField.h>
 #include <hgrid_proximity/ExplainPair.h>
 #include <hgrid_proximity/Gauge.h>
 #include <hgrid_proximity/GetAllowed.h>
+#include <hgrid_proximity/Guard.h>
 #include <hgrid_proximity/Hit.h>
 #include <hgrid_proximity/Lease.h>
-#include <hgrid_proximity/Guard.h>
 #include <hgrid_proximity/ListScenes.h>
 #include <hgrid_proximity/LoadOctomap.h>
 #include <hgrid_proximity/LoadScene.h>
