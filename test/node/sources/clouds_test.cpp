@@ -164,6 +164,7 @@ TEST_F(Clouds, WithoutFinitePointsDoNotKeepTheCloudFresh) {
        {Points{}, Points{{nan, nan, nan}, {nan, 0.0f, 0.0f}}, beams_without_return, beams_without_end}) {
     SCOPED_TRACE(std::to_string(blind.size()) + " points");
     EXPECT_EQ(askedWithFresh(wall, 0.05, 0.05, 3.05).verdict, msg::Verdict::HIT);
+    sendUntilComplete(wall);
     sendUntil(blind, "the cloud is lost", [](const msg::Status& status) {
       return status.world.incomplete == Names({"cloud/front"}) && isWithoutCells(status);
     });
