@@ -23,7 +23,7 @@ struct RobotParams {
   std::string description = "robot_description";        ///< parameter that holds the URDF, also in parent namespaces
   std::string semantic = "robot_description_semantic";  ///< parameter that holds the SRDF, if there is one
   std::string tf_prefix;                                ///< its tf frames are "tf_prefix/link"; empty: "link"
-  std::string joint_states;  ///< topic of its sensor_msgs/JointState messages; empty: see jointStatesTopic()
+  std::string joint_states = {};  ///< topic of its sensor_msgs/JointState messages; empty: see jointStatesTopic()
 };
 
 /// The link that an obstacle of ~obstacles is attached to.
