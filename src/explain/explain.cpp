@@ -217,7 +217,7 @@ class Words {
       case Measure::contained:
         return " One shape lies inside the other, which counts as contact.";
       case Measure::containment_unknown:
-        return " One shape may lie inside the other, which is an open mesh; this counts as contact.";
+        return " One shape may lie inside the other, a mesh that is open or unclear; this counts as contact.";
       case Measure::failed:
         break;
     }
