@@ -305,7 +305,8 @@ TEST_F(Explain, WhatWasMeasuredIsTold) {
   EXPECT_TRUE(says(wordsOf(Measure::apart, 0.07), "Their shapes are 0.07 m apart."));
   EXPECT_TRUE(says(wordsOf(Measure::contact, 0.0), "Their shapes are in contact."));
   EXPECT_TRUE(says(wordsOf(Measure::contained, 0.0), "One shape lies inside the other, which counts as contact."));
-  EXPECT_TRUE(says(wordsOf(Measure::containment_unknown, 0.0), "a mesh that is open or unclear; this counts as contact."));
+  EXPECT_TRUE(
+      says(wordsOf(Measure::containment_unknown, 0.0), "a mesh that is open or unclear; this counts as contact."));
   EXPECT_TRUE(says(wordsOf(Measure::failed, 0.0), "could not be computed; this counts as contact."));
 }
 
