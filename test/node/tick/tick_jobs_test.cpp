@@ -42,7 +42,7 @@ class Ticking {
   std::thread thread_;
 };
 
-Refusal refusalOf(TickJobs& jobs, const TickJobs::Job& job) {
+Refusal refusalOfJob(TickJobs& jobs, const TickJobs::Job& job) {
   try {
     jobs.run(job);
   } catch (const Refusal& refusal) {
@@ -68,7 +68,7 @@ TEST(TickJobsRun, ThrowsWhatTheJobThrowsAndDoesItOnce) {
   TickJobs jobs;
   const Ticking ticking(jobs);
   int times = 0;
-  const Refusal refusal = refusalOf(jobs, [&](World&) {
+  const Refusal refusal = refusalOfJob(jobs, [&](World&) {
     ++times;
     throw Refusal(Code::limit, "too many");
   });
@@ -80,7 +80,7 @@ TEST(TickJobsRun, ThrowsWhatTheJobThrowsAndDoesItOnce) {
 
 TEST(TickJobsRun, IsGivenUpIfNoTickComes) {
   TickJobs jobs([] { return false; }, std::chrono::milliseconds(20));
-  const Refusal refusal = refusalOf(jobs, [](World&) {});
+  const Refusal refusal = refusalOfJob(jobs, [](World&) {});
   EXPECT_EQ(refusal.code(), Code::busy);
   EXPECT_STREQ(refusal.what(), "no tick has started within 0.02 s; this change will not be made: request it again");
 }
@@ -88,7 +88,7 @@ TEST(TickJobsRun, IsGivenUpIfNoTickComes) {
 TEST(TickJobsRun, NeverDoesARefusedJobLater) {
   TickJobs jobs([] { return false; }, std::chrono::milliseconds(20));
   int refused = 0, accepted = 0;
-  EXPECT_EQ(refusalOf(jobs, [&](World&) { ++refused; }).code(), Code::busy);
+  EXPECT_EQ(refusalOfJob(jobs, [&](World&) { ++refused; }).code(), Code::busy);
   jobs.add("a", [&](World&) { ++accepted; });  // the queue keeps its order
   const Params params;
   Ledger ledger;
@@ -105,7 +105,7 @@ TEST(TickJobsRun, IsNotDoneIfItWasRefusedWhileATickWasAtAnEarlierJob) {
   jobs.add("a", [&](World&) { refusal_came.get_future().wait(); });
   int refused = 0;
   Code code = Code::ok;
-  std::thread asking([&] { code = refusalOf(jobs, [&](World&) { ++refused; }).code(); });
+  std::thread asking([&] { code = refusalOfJob(jobs, [&](World&) { ++refused; }).code(); });
   while (jobs.waiting() < 2) std::this_thread::yield();
   const Params params;
   Ledger ledger;
@@ -128,7 +128,7 @@ TEST(TickJobs, DoNotPileUpWhileNoTickComes) {
       jobs.add(key, [&done, key, i](World&) { done += key + std::to_string(i) + " "; });
     }
     if (i % 100 != 0) continue;
-    EXPECT_EQ(refusalOf(jobs, [&](World&) { done += "refused "; }).code(), Code::busy);
+    EXPECT_EQ(refusalOfJob(jobs, [&](World&) { done += "refused "; }).code(), Code::busy);
   }
   EXPECT_EQ(jobs.waiting(), 2u);
   Params params;
@@ -160,7 +160,7 @@ TEST(TickJobsRun, WaitsForAJobThatHasStartedHoweverLongItTakes) {
   const Ticking ticking(jobs);
   std::atomic<bool> done{false};
   const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(500);
-  const Refusal refusal = refusalOf(jobs, [&](World&) {
+  const Refusal refusal = refusalOfJob(jobs, [&](World&) {
     while (std::chrono::steady_clock::now() < until) std::this_thread::yield();
     done = true;
   });
@@ -187,7 +187,7 @@ TEST(TickJobs, AreDoneAgainUntilTheySucceed) {
 TEST(TickJobsRun, IsGivenUpIfTheNodeIsAboutToEnd) {
   std::atomic<int> looks{0};
   TickJobs jobs([&] { return ++looks > 2; });
-  const Refusal refusal = refusalOf(jobs, [](World&) {});
+  const Refusal refusal = refusalOfJob(jobs, [](World&) {});
   EXPECT_EQ(refusal.code(), Code::busy);
   EXPECT_STREQ(refusal.what(), "the node is shutting down; it makes no more changes");
   EXPECT_EQ(looks, 3) << "run() checks repeatedly whether the node is shutting down";
