@@ -97,7 +97,7 @@ TEST_P(Ages, WhatWasPlacedByStaticTransformsAgesFromTheMomentTheyStopPlacingIt) 
   EXPECT_EQ(world.pose("a").state, Freshness::late);
 }
 
-TEST_P(Ages, LateStaleAndLostBeginAtOneAndAHalfPeriodsOfASlowFrameButGrowthDoesNot) {
+TEST_P(Ages, LateStaleAndLostBeginAtOneAndAHalfPeriodsOfASlowFrameButReachDoesNot) {
   Params params;
   params.lost_after = 1.0;
   SimulatedWorld world({"a"}, GetParam(), params);
@@ -111,7 +111,8 @@ TEST_P(Ages, LateStaleAndLostBeginAtOneAndAHalfPeriodsOfASlowFrameButGrowthDoesN
     world.tick();
     EXPECT_NEAR(world.pose("a").age, age, 1e-6);
     EXPECT_EQ(world.pose("a").state, Freshness::fresh) << age;
-    EXPECT_NEAR(world.pose("a").growth, age > 0.25 ? std::min(1.0, 2.0 * age) : 0.0, 1e-6) << age;
+    EXPECT_NEAR(world.pose("a").reach, age > 0.25 ? 2.0 * age : 0.0, 1e-6) << age;
+    EXPECT_EQ(world.pose("a").growth, 1.0) << "the margins are always as wide as before the next pose, up to the cap";
     EXPECT_EQ(world.snapshot().complete(), 2.0 * age <= 1.0) << "beyond ~growth_cap, pairs may be missing";
   }
   world.wait(0.2);
