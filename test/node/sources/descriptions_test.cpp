@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "test/node/support/descriptions.h"
 
+#include <hgrid_proximity/BodyState.h>
+#include <hgrid_proximity/Verdict.h>
 #include <ros/param.h>
 
 #include <algorithm>
