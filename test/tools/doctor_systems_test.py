@@ -17,6 +17,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "support"))
 
 from system import ARM, ARM_SRDF, PUPPET, ROOT, System, wait_for  # noqa: E402  (the path comes first)
 
+from hgrid_doctor.facts import LOST  # noqa: E402
+
 ALL = os.environ.get("HGRID_TEST_DOCTOR_SYSTEMS", "few") == "all"
 
 XACRO = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
@@ -254,7 +256,7 @@ class DoctorSystems(unittest.TestCase):
         system.wait_for_status(complete)
         publisher.wait()
         os.kill(system.pid("/robot_state_publisher"), signal.SIGKILL)
-        system.wait_for_status(lambda status: not status.world.complete)
+        system.wait_for_status(lambda status: any(body.state == LOST for body in status.bodies))
         (fix,) = self.expect(1, "state_publisher_gone")
         self.type(fix[0])
         self.expect_quiet()

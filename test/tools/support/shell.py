@@ -7,7 +7,8 @@ import select
 import subprocess
 import time
 
-LASTING = re.compile(r"(\w+=\S+ )*(roscore|roslaunch|rosrun|rostopic pub)\b")  # commands that run until they are ended
+# Commands that run until they are ended.
+LASTING = re.compile(r"(\w+=\S+ )*(roscore|roslaunch|rosrun(?! hgrid_proximity make_srdf)|rostopic pub)\b")
 END = "end of command"
 
 

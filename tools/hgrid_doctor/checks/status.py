@@ -19,6 +19,7 @@ FRAME = re.compile(r"frame '([^']+)'")  # in a reason: the frame that has no pos
 MOST_PAIRS = 10_000_000  # largest value of ~max_pairs
 
 HINTS = {  # fix by the first word of the reason
+    "STALE": "See why its publisher is slow or has stopped: `rostopic hz {topic}`, `rosnode list`.",
     "LOST": "See why its publisher stopped: `rostopic hz {topic}`, `rosnode list`.",
     "FROZEN": "Let the clock run on, or wait for the first data after the jump of the clock.",
     "INVALID": "See what the publisher of its frame sends: `rostopic echo /tf`.",
