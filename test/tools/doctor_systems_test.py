@@ -369,7 +369,7 @@ class DoctorSystems(unittest.TestCase):
     def test_pairs_that_rules_hide_and_links_that_touch(self):
         system = self.system
         self.sound_robot(description=TOUCHING, semantic="")
-        system.node(complete, obstacles=[TABLE])
+        system.node(complete, obstacles=[TABLE, {**TABLE, "name": "lamp"}])
         (fix,) = self.expect(2, "links_touch")
         system.write("my_robot.urdf", TOUCHING)
         for command in fix:
