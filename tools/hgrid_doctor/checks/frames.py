@@ -66,8 +66,8 @@ def check_free_joints(facts: Facts, tree: Tree, robot: RobotFacts, findings: Fin
             "static_free_joint",
             ERROR,
             f"Where the {joint.type} joint '{joint.name}' of robot '{robot.settings.name}' stands is unknown: its "
-            f"frame '{frame}' is only on /tf_static, from {publisher}. robot_state_publisher sends a planar joint as if it "
-            "were fixed.",
+            f"frame '{frame}' is only on /tf_static, from {publisher}. robot_state_publisher sends a planar joint as if "
+            "it were fixed.",
             f"Publish the pose of '{frame}' in '{robot.settings.frame(joint.parent)}' on /tf (odometry, localization). "
             "If the joint never moves, make it fixed in the URDF.",
             sources_below(facts, tree, {frame}) | {robot.settings.name},

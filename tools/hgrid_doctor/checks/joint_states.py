@@ -135,8 +135,8 @@ def check_mimics(facts: Facts, robot: RobotFacts, topic: str, findings: Findings
             "mimic_differs",
             WARN,
             f"Joint '{joint.name}' of robot '{robot.settings.name}' is at {own.position:.4g} on {topic}, but by the "
-            f"URDF it follows '{joint.mimic}' and would be at {rule:.4g}: tf follows the message, states that are checked "
-            "follow the URDF.",
+            f"URDF it follows '{joint.mimic}' and would be at {rule:.4g}: tf follows the message, states that are "
+            "checked follow the URDF.",
             f"Leave '{joint.name}' out of the joint states, so that robot_state_publisher computes it, or correct its "
             "<mimic> in the URDF.",
         )
