@@ -10,6 +10,7 @@
 
 #include "node/services/guarded.h"
 #include "node/tick/realtime.h"
+#include "node/time/ros_time.h"
 
 namespace hgrid {
 namespace {
@@ -107,7 +108,7 @@ void NodeParts::stop() {
 
 PrepareObstacles NodeParts::prepareObstacles() const {
   return [this](const ObstacleChanges& changes, const std::vector<PairRule>* rules) {
-    const Time now(static_cast<std::int64_t>(ros::Time::now().toNSec()));
+    const Time now = fromRos(ros::Time::now());
     return world_.prepareObstacles(changes, tick_loop_.newest(), now, rules);
   };
 }

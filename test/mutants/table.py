@@ -328,6 +328,10 @@ CORE = [
      "++slots[slot].generation;", ""),
     ("the margin is halved", GROWN,
      "0.5 * options.margin + (", "0.25 * options.margin + ("),
+    ("the pairs of a body whose poses come rarely come and go", COMMIT,
+     "std::max(pose.reach, reachInPeriod(pose, what, options.growth_after))", "pose.reach"),
+    ("a speed that nobody guarantees counts as guaranteed", "world/snapshot.cpp",
+     "result.assumed = result.assumed || !is_bounded;", ""),
     ("the boxes of stale bodies do not grow in the grid", GROWN,
      " + snapshot.poses_[body].growth", ""),
     ("the gap of a pair is that of its farthest shapes", "pairs/pair_choice.cpp",
@@ -469,6 +473,10 @@ CORE = [
 ]
 
 NODE = [
+    ("the static pose of a frame that a planar joint moves is used", "node/tf/transform_store.h",
+     "return table_.isFree(frame) && !histories_[frame].moves();", "return false;"),
+    ("all joints that mimic a mimic joint count as sent", "node/sources/state_publisher.cpp",
+     "if (known.count(link->mimic) != 0) {", "if (true) {"),
     ("a publisher that took a frame back long ago is reported as a rival", CLAIMS,
      " && reading - entry.left_at <= kMemory", ""),
     ("a frame is contested forever", CLAIMS,

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/guard/action_goals.h"
 
+#include <set>
+
 namespace hgrid {
 namespace {
 
@@ -85,9 +87,9 @@ std::vector<GoalNews> ActionGoals::result(const GoalStatus& status, Time now) {
 
 std::vector<GoalNews> ActionGoals::status(const std::vector<GoalStatus>& all, Time now) {
   std::vector<GoalNews> news;
-  std::map<std::string, bool> present;
+  std::set<std::string> present;
   for (const GoalStatus& status : all) {
-    present[status.goal.id] = true;
+    present.insert(status.goal.id);
     note(status, now, news);
   }
   has_list_ = true;

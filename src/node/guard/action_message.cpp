@@ -3,6 +3,7 @@
 #include "node/guard/action_message.h"
 
 #include "node/guard/path_message_types.h"
+#include "node/time/ros_time.h"
 
 namespace hgrid {
 namespace {
@@ -11,10 +12,8 @@ constexpr const char* kGoalId = "302881f31927c1df708a2dbab0e80ee8";
 constexpr const char* kStatusArray = "8b2b82f13216d0a8ea88bd3af735e619";
 constexpr const char* kActionResult = "c4fb3b000dc9da4fd99699380efcc5d9";
 
-Time timeOf(const ros::Time& stamp) { return Time(static_cast<std::int64_t>(stamp.toNSec())); }
-
 GoalStatus statusOf(const moveit::ActionGoalStatus& status) {
-  return {{status.goal.id, timeOf(status.goal.stamp)}, status.status};
+  return {{status.goal.id, fromRos(status.goal.stamp)}, status.status};
 }
 
 /// @throws Refusal unsupported
@@ -28,13 +27,13 @@ void checkType(const std::string& md5, const char* expected, const char* type) {
 std::optional<GoalId> readGoalId(const std::string& bytes, const std::string& md5) {
   if (md5 != kActionGoal) return std::nullopt;
   const auto goal = readMessage<moveit::FollowJointTrajectoryActionGoal>(bytes);
-  return GoalId{goal.goal_id, timeOf(goal.goal_stamp)};
+  return GoalId{goal.goal_id, fromRos(goal.goal_stamp)};
 }
 
 GoalId readCancel(const std::string& bytes, const std::string& md5) {
   checkType(md5, kGoalId, "actionlib_msgs/GoalID");
   const auto cancel = readMessage<moveit::ActionGoalId>(bytes);
-  return {cancel.id, timeOf(cancel.stamp)};
+  return {cancel.id, fromRos(cancel.stamp)};
 }
 
 std::vector<GoalStatus> readStatus(const std::string& bytes, const std::string& md5) {

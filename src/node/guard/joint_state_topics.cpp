@@ -8,6 +8,8 @@
 #include "node/guard/guarded_joints.h"
 #include "node/guard/path_message_types.h"
 #include "node/services/guarded.h"
+#include "node/time/ros_time.h"
+#include "node/wire/bytes_subscriber.h"
 
 namespace hgrid {
 namespace {
@@ -41,15 +43,8 @@ void JointStateTopics::follow(const Tick& tick) {
   for (const std::string& topic : wanted) {
     ros::Subscriber& subscriber = subscribers_[topic];
     if (subscriber) continue;
-    using Event = ros::MessageEvent<const MessageBytes>;
-    ros::SubscribeOptions options;
-    options.initByFullCallbackType<const Event&>(
-        topic, kStateQueue, [this, topic](const Event& event) { onMessage(event, topic); },
-        [] {
-          const auto message = boost::make_shared<MessageBytes>();
-          message->most_bytes = kMostStateBytes;
-          return message;
-        });
+    ros::SubscribeOptions options = bytesOptions(topic, kStateQueue, kMostStateBytes,
+                                                 [this, topic](const BytesEvent& event) { onMessage(event, topic); });
     guarded(commons_.ledger, "guard.joint_states.failed",
             [&] { subscriber = ros::NodeHandle(thread_.node()).subscribe(options); });
   }
@@ -64,15 +59,12 @@ void JointStateTopics::stop() {
 void JointStateTopics::onMessage(const ros::MessageEvent<const MessageBytes>& event, const std::string& topic) {
   guarded(commons_.ledger, "guard.joint_states.failed", [&] {
     const MessageBytes& message = *event.getConstMessage();
-    const ros::M_string& connection = event.getConnectionHeader();
-    const auto md5 = connection.find("md5sum");
-    if (message.size > kMostStateBytes || md5 == connection.end() || md5->second != kJointState) {
+    if (message.size > kMostStateBytes || md5Of(event) != kJointState) {
       throw Refusal(Code::unsupported, "a message on " + topic +
                                            " was refused: it must be sensor_msgs/JointState, of " +
                                            std::to_string(kMostStateBytes) + " bytes at most");
     }
-    joint_states_.take(topic, readMessage<moveit::JointState>(message.bytes),
-                       Time(static_cast<std::int64_t>(event.getReceiptTime().toNSec())));
+    joint_states_.take(topic, readMessage<moveit::JointState>(message.bytes), fromRos(event.getReceiptTime()));
   });
 }
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "node/time/ros_time.h"
+
 namespace hgrid {
 namespace {
 
@@ -21,7 +23,7 @@ std::string jointStatesTopic(const RobotParams& robot) {
 
 void JointStates::take(const std::string& topic, const moveit::JointState& message, Time arrival) {
   const ros::Time stamp = message.header.stamp;
-  const Time time = stamp.isZero() ? arrival : Time(static_cast<std::int64_t>(stamp.toNSec()));
+  const Time time = stamp.isZero() ? arrival : fromRos(stamp);
   const std::lock_guard<std::mutex> lock(mutex_);
   Positions& positions = topics_[topic];
   for (std::size_t i = 0; i < message.name.size() && i < message.position.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "node/guard/path_message_types.h"
+#include "node/time/ros_time.h"
 
 namespace hgrid {
 namespace {
@@ -95,8 +96,7 @@ PathCommand startedAt(Time start, RobotPath path) {
 
 PathCommand commandOf(const JointTrajectory& trajectory, Time arrival) {
   const ros::Time stamp = trajectory.header.stamp;
-  PathCommand command = startedAt(stamp.isZero() ? arrival : Time(static_cast<std::int64_t>(stamp.toNSec())),
-                                  Chain({&trajectory}).take());
+  PathCommand command = startedAt(stamp.isZero() ? arrival : fromRos(stamp), Chain({&trajectory}).take());
   command.is_stamped = !stamp.isZero();
   return command;
 }

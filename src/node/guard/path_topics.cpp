@@ -10,6 +10,8 @@
 
 #include "node/guard/action_message.h"
 #include "node/services/guarded.h"
+#include "node/time/ros_time.h"
+#include "node/wire/bytes_subscriber.h"
 
 namespace hgrid {
 namespace {
@@ -17,16 +19,6 @@ namespace {
 constexpr std::size_t kMostBytes = 16 << 20;  // of a message
 constexpr int kQueue = 10;                    // messages of one topic that wait to be read; the oldest is dropped
 constexpr std::size_t kMostWaiting = 100;     // goals whose paths are kept until they begin
-
-std::string md5Of(const ros::MessageEvent<const MessageBytes>& event) {
-  const ros::M_string& connection = event.getConnectionHeader();
-  const auto md5 = connection.find("md5sum");
-  return md5 == connection.end() ? "" : md5->second;
-}
-
-Time arrivalOf(const ros::MessageEvent<const MessageBytes>& event) {
-  return Time(static_cast<std::int64_t>(event.getReceiptTime().toNSec()));
-}
 
 /// Returns the bytes of a message. @throws Refusal limit
 const std::string& checkedBytes(const MessageBytes& message) {
@@ -73,12 +65,7 @@ void PathTopics::start() {
 }
 
 void PathTopics::subscribe(const std::string& name, const std::function<void(const Event&)>& callback) {
-  ros::SubscribeOptions options;
-  options.initByFullCallbackType<const Event&>(name, kQueue, callback, [] {
-    const auto message = boost::make_shared<MessageBytes>();
-    message->most_bytes = kMostBytes;
-    return message;
-  });
+  ros::SubscribeOptions options = bytesOptions(name, kQueue, kMostBytes, callback);
   subscribers_.push_back(ros::NodeHandle(thread_.node()).subscribe(options));
 }
 
@@ -116,14 +103,14 @@ void PathTopics::take(const Event& event, const Topic& topic, PathSource& source
   const std::string md5 = md5Of(event);
   const std::optional<GoalId> id = topic.action ? readGoalId(bytes, md5) : std::nullopt;
   if (id) {
-    const GoalNews news = topic.action->goals.send(*id, arrivalOf(event));
+    const GoalNews news = topic.action->goals.send(*id, fromRos(event.getReceiptTime()));
     if (isOver(news.phase)) return commons_.ledger.count("guard.ended");
     source.goal = news.key;
     phase = news.phase;
   }
   const std::shared_ptr<const Tick> tick = newest_();
   if (!tick || !tick->snapshot) throw Refusal(Code::not_ready, "there is no complete tick yet; send the path again");
-  PathCommand command = readPathMessage(bytes, md5, arrivalOf(event));
+  PathCommand command = readPathMessage(bytes, md5, fromRos(event.getReceiptTime()));
   command.path.robot = topic.params.robot;
   source.is_plan = command.is_plan;
   if (command.path.times.empty()) {
@@ -146,7 +133,7 @@ void PathTopics::onAction(const Event& event, const Topic& topic, ActionTopic ki
     const std::shared_ptr<const Tick> tick = newest_();
     if (!tick || !tick->snapshot) return;  // the server repeats the status
     Action& action = *topic.action;
-    const Time now = arrivalOf(event);
+    const Time now = fromRos(event.getReceiptTime());
     std::vector<GoalNews> all;
     try {
       const std::string& bytes = checkedBytes(*event.getConstMessage());

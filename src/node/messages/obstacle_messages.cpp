@@ -14,6 +14,7 @@
 #include "node/messages/from_messages.h"
 #include "node/sources/body_params.h"
 #include "node/tf/frame_names.h"
+#include "node/time/ros_time.h"
 
 namespace hgrid {
 namespace {
@@ -47,7 +48,7 @@ ObstaclePlace placeOf(const msg::Obstacle& change) {
   place.frame = withoutSlash(change.header.frame_id);
   place.frame_from_body = fromPose(change.pose, "the pose of " + whatOf(change));
   checkWithin(place.frame_from_body.translation(), 1e6, "the pose of " + whatOf(change));
-  if (change.at_stamp) place.at = Time(static_cast<std::int64_t>(change.header.stamp.toNSec()));
+  if (change.at_stamp) place.at = fromRos(change.header.stamp);
   return place;
 }
 

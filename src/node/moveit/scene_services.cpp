@@ -14,6 +14,7 @@
 #include "node/moveit/scene_message.h"
 #include "node/moveit/scene_reply.h"
 #include "node/services/guarded.h"
+#include "node/time/ros_time.h"
 #include "node/wire/checked.h"
 #include "node/world/world.h"
 
@@ -68,7 +69,7 @@ void SceneServices::apply(const moveit::ApplyPlanningScene::Request& request,
     }
     const std::shared_ptr<PreparedObstacles> prepared = read->prepare(prepare_, newest_().get());
     change_world_([read, map, prepared, &gaps = gaps_](World& world) {
-      read->applyTo(world, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())), prepared.get());
+      read->applyTo(world, fromRos(ros::Time::now()), prepared.get());
       if (!read->applied()) throw *read->refused();
       read->noteIn(gaps);
       showGaps(gaps, world);

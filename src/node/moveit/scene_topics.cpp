@@ -13,6 +13,8 @@
 
 #include "node/services/guarded.h"
 #include "node/tick/match_names.h"
+#include "node/time/ros_time.h"
+#include "node/wire/bytes_subscriber.h"
 #include "node/world/world.h"
 
 namespace hgrid {
@@ -60,15 +62,9 @@ SceneTopics::~SceneTopics() {
 }
 
 void SceneTopics::subscribe(ros::NodeHandle& node, SceneTopic topic) {
-  using Event = ros::MessageEvent<const MessageBytes>;
-  const boost::function<void(const Event&)> on_message = [this, topic](const Event& event) { onMessage(event, topic); };
-  const auto new_message = [most = static_cast<std::size_t>(commons_.settings.params.moveit_queue_bytes)] {
-    const auto message = boost::make_shared<MessageBytes>();
-    message->most_bytes = most;
-    return message;
-  };
-  ros::SubscribeOptions options;
-  options.initByFullCallbackType<const Event&>(name(topic), 1, on_message, new_message);
+  ros::SubscribeOptions options =
+      bytesOptions(name(topic), 1, static_cast<std::size_t>(commons_.settings.params.moveit_queue_bytes),
+                   [this, topic](const BytesEvent& event) { onMessage(event, topic); });
   options.datatype = topic == SceneTopic::collision_object            ? "moveit_msgs/CollisionObject"
                      : topic == SceneTopic::attached_collision_object ? "moveit_msgs/AttachedCollisionObject"
                                                                       : "moveit_msgs/PlanningScene";
@@ -79,10 +75,7 @@ void SceneTopics::subscribe(ros::NodeHandle& node, SceneTopic topic) {
 void SceneTopics::onMessage(const ros::MessageEvent<const MessageBytes>& event, SceneTopic topic) {
   const auto failed = guarded(commons_.ledger, "moveit.failed", [&] {
     commons_.ledger.count("moveit.received");
-    const ros::M_string& connection = event.getConnectionHeader();
-    const auto md5 = connection.find("md5sum");
-    ReceivedScene scene{topic, md5 == connection.end() ? "" : md5->second, event.getPublisherName(),
-                        event.getConstMessage()};
+    ReceivedScene scene{topic, md5Of(event), event.getPublisherName(), event.getConstMessage()};
     const std::string what = scene.name();
     if (queue_.push(std::move(scene))) return;
     queue_.noteDropped(topic == SceneTopic::planning_scene);
@@ -169,7 +162,7 @@ void SceneTopics::apply(const SceneBatch& batch) {
 void SceneTopics::applySome(const SceneBatch& batch, std::size_t& done, PreparedObstacles* first, SceneGaps& gaps,
                             World& world) {
   const auto begin = std::chrono::steady_clock::now();
-  const Time now(static_cast<std::int64_t>(ros::Time::now().toNSec()));
+  const Time now = fromRos(ros::Time::now());
   while (done < batch.size() && std::chrono::steady_clock::now() - begin < kTickShare) {
     ReadScene& read = *batch[done];
     read.applyTo(world, now, std::exchange(first, nullptr));

@@ -8,6 +8,7 @@
 #include "node/guard/path_message.h"
 #include "node/messages/to_messages.h"
 #include "node/states/robot_choice.h"
+#include "node/time/ros_time.h"
 
 namespace hgrid {
 
@@ -21,7 +22,7 @@ void GuardService::answer(ServiceCall<msg::Guard>& call) {
   if (request.positions.empty() && guard_.stopAll(request.robot)) return;
   const std::string robot = robotNamed(request.robot, tick).name;
   if (request.positions.empty()) return;
-  const Time start = request.start.isZero() ? tick.made.ros : Time(static_cast<std::int64_t>(request.start.toNSec()));
+  const Time start = request.start.isZero() ? tick.made.ros : fromRos(request.start);
   RobotPath path;
   path.robot = robot;
   path.joints = request.joint_names;

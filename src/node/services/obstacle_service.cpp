@@ -12,6 +12,7 @@
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/pairs/pair_rule.h"
 #include "node/messages/obstacle_messages.h"
+#include "node/time/ros_time.h"
 #include "node/world/world.h"
 
 namespace hgrid {
@@ -71,7 +72,7 @@ void ObstacleService::apply(ServiceCall<msg::ApplyObstacles>& call) const {
     checkTouch(*changes, call.tick, params_);
     const std::shared_ptr<PreparedObstacles> prepared = prepare_(*changes, nullptr);
     call.tick = AnswerTick(change_world_([changes, prepared](World& world) {
-      world.applyObstacles(*changes, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())), prepared.get());
+      world.applyObstacles(*changes, fromRos(ros::Time::now()), prepared.get());
     }));
     call.response.durable = wait_until_stored_();
   } catch (const ChangeRefusal& refusal) {

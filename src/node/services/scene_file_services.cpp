@@ -17,6 +17,7 @@
 #include "node/sources/configured_obstacle.h"
 #include "node/state/scene_file.h"
 #include "node/tick/match_names.h"
+#include "node/time/ros_time.h"
 #include "node/world/world.h"
 
 namespace hgrid {
@@ -52,7 +53,7 @@ std::vector<PairRule> rulesAfter(std::vector<PairRule> present, const std::vecto
   for (PairRule& rule : added) {
     rule.origin = Origin::service;
     rule.set_by = caller;
-    rule.since = Time(static_cast<std::int64_t>(ros::Time::now().toNSec()));
+    rule.since = fromRos(ros::Time::now());
   }
   book.add(added);
   return book.rules();
@@ -124,7 +125,7 @@ void SceneFileServices::load(ServiceCall<msg::LoadScene>& call) const {
   call.tick = AnswerTick(change_world_([changes, next, matches, prepared](World& world) {
     PreparedRules rules_now = *next;  // copied first, because nothing may fail after the obstacles were changed
     world.prepareNames(matches);
-    world.applyObstacles(*changes, Time(static_cast<std::int64_t>(ros::Time::now().toNSec())), prepared.get());
+    world.applyObstacles(*changes, fromRos(ros::Time::now()), prepared.get());
     world.setRules(std::move(rules_now));
   }));
   call.response.durable = wait_until_stored_();

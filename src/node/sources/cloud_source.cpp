@@ -10,6 +10,7 @@
 #include "node/services/guarded.h"
 #include "node/tf/frame_names.h"
 #include "node/tick/tick.h"
+#include "node/time/ros_time.h"
 
 namespace hgrid {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 constexpr auto kLookAgain = std::chrono::milliseconds(2);  // pause between two checks for a missing transform
 
 Time steadyNow() { return std::chrono::steady_clock::now().time_since_epoch(); }
-Time rosNow() { return Time(static_cast<std::int64_t>(ros::Time::now().toNSec())); }
+Time rosNow() { return fromRos(ros::Time::now()); }
 Time durationOf(double length) { return Time(std::llround(1e9 * length)); }
 
 }  // namespace
@@ -93,7 +94,7 @@ void CloudSource::take(const CloudMessage& message) {
         what_ + " cannot be placed yet: the world frame is not known; load the first robot or set ~world_frame");
   }
   const Time now = rosNow();
-  const Time given(static_cast<std::int64_t>(message.stamp.toNSec()));
+  const Time given = fromRos(message.stamp);
   const Time stamp = given.count() == 0 ? now : given;
   if (given.count() == 0) {
     ledger_.refuse(

@@ -8,6 +8,7 @@
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/refusal.h"
 #include "node/tf/frame_names.h"
+#include "node/time/ros_time.h"
 
 namespace hgrid {
 namespace {
@@ -82,7 +83,7 @@ ReadMap MapSource::read(const MapParams& map, const OctomapMessage& message) con
   const std::string what = "map '" + map.name + "' of " + map.topic;
   if (!message.flaw.empty()) throw Refusal(Code::truncated, what + ": " + printable(message.flaw, 200));
   ReadMap result{map, readOctomapData({message.id, message.binary, message.resolution}, message.data, what, options()),
-                 Time(static_cast<std::int64_t>(message.stamp.toNSec())), thisMoment()};
+                 fromRos(message.stamp), thisMoment()};
   result.params.frame = withoutSlash(message.frame);
   return result;
 }

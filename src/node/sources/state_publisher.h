@@ -10,15 +10,17 @@
 
 namespace hgrid {
 
-// What robot_state_publisher cannot send. In version 1.15.2, and in those before, it sends a planar joint on
-// /tf_static, as if it were fixed, and a floating joint not at all. A joint that follows another one it computes once
-// per message, in the order of the names of the joints.
+// What robot_state_publisher (1.15.2 and older) cannot send:
+// - It sends a planar joint on /tf_static, as if it were fixed, and a floating joint not at all.
+// - It computes the joints that mimic other joints once per message, in the order of their names. So it never has a
+//   position for a joint that mimics a mimic joint of a later name.
 
 /// Returns the free frames of a robot: those of the links that a planar or floating joint moves.
 std::set<std::string, std::less<>> freeFrames(const RobotModel& model, const std::string& tf_prefix);
 
-/// Returns the frames of the links whose joint follows a follower that comes later, and why they are not sent, as the
-/// end of a sentence. They are sent if the joint states contain the followed joint.
+/// Returns the frames of links whose joint mimics a mimic joint of a later name. The value of each entry says why
+/// robot_state_publisher does not send the frame, as the end of a sentence. It does send the frame if the joint states
+/// contain the joint that is mimicked.
 std::map<std::string, std::string> unsentFrames(const RobotModel& model, const std::string& tf_prefix);
 
 }  // namespace hgrid

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "hgrid_proximity/refusal.h"
+#include "node/wire/bytes_subscriber.h"
 
 namespace hgrid {
 
@@ -51,16 +52,8 @@ TfReader::~TfReader() {
 
 void TfReader::subscribe(ros::NodeHandle& node, const std::string& topic, const char* type, const char* md5,
                          void (TfReader::*on_message)(const Event&)) {
-  const boost::function<void(const Event&)> callback = [this, on_message](const Event& event) {
-    (this->*on_message)(event);
-  };
-  const auto new_message = [most_bytes = most_bytes_] {
-    const auto message = boost::make_shared<MessageBytes>();
-    message->most_bytes = most_bytes;
-    return message;
-  };
-  ros::SubscribeOptions options;
-  options.initByFullCallbackType<const Event&>(topic, 1, callback, new_message);
+  ros::SubscribeOptions options =
+      bytesOptions(topic, 1, most_bytes_, [this, on_message](const Event& event) { (this->*on_message)(event); });
   options.datatype = type;
   options.md5sum = md5;
   options.transport_hints = ros::TransportHints().tcpNoDelay();

@@ -10,6 +10,7 @@
 
 #include "hgrid_proximity/refusal.h"
 #include "node/services/guarded.h"
+#include "node/time/ros_time.h"
 
 namespace hgrid {
 namespace {
@@ -84,7 +85,7 @@ void TickHistory::compact() {
 
 std::shared_ptr<const Tick> TickHistory::at(const ros::Time& stamp, const std::shared_ptr<const Tick>& newest) const {
   if (stamp.isZero()) return newest;
-  const Time asked(static_cast<std::int64_t>(stamp.toNSec())), now = newest->snapshot->stamp();
+  const Time asked = fromRos(stamp), now = newest->snapshot->stamp();
   if (asked == now) return newest;
   PastTick past;
   if (asked < now) past = history_.find(asked, *newest->snapshot);

@@ -4,6 +4,8 @@
 
 #include <ros/time.h>
 
+#include "node/time/ros_time.h"
+
 namespace hgrid {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr double kSmallStep = 0.1;  // [s] a wall clock may step back this much,
 
 Moment thisMoment() {
   Moment moment;
-  moment.ros = Time(static_cast<std::int64_t>(ros::Time::now().toNSec()));
+  moment.ros = fromRos(ros::Time::now());
   moment.steady = std::chrono::steady_clock::now();
   return moment;
 }

@@ -12,6 +12,7 @@
 #include "hgrid_proximity/refusal.h"
 #include "node/messages/from_messages.h"
 #include "node/tf/frame_names.h"
+#include "node/time/ros_time.h"
 #include "node/wire/checked.h"
 
 namespace hgrid {
@@ -74,7 +75,7 @@ class Reader {
       report_.unstamped = true;
       return report_.arrival.ros;
     }
-    const Time stamp(static_cast<std::int64_t>(given.toNSec()));
+    const Time stamp = fromRos(given);
     const double ahead = seconds(stamp - report_.arrival.ros);
     if (ahead <= max_future_) return stamp;
     throw Refusal(Code::clock, what + " is stamped " + secondsText(ahead) + " in the future; at most ~max_future, " +

@@ -12,6 +12,7 @@
 
 #include "hgrid_proximity/refusal.h"
 #include "node/services/guarded.h"
+#include "node/wire/bytes_subscriber.h"
 
 namespace hgrid {
 namespace {
@@ -46,16 +47,9 @@ TrackSource::~TrackSource() {
 }
 
 void TrackSource::subscribe(ros::NodeHandle& node) {
-  using Event = ros::MessageEvent<const MessageBytes>;
   const bool markers = tracker_.type == TrackerType::markers;
-  ros::SubscribeOptions options;
-  options.initByFullCallbackType<const Event&>(
-      tracker_.topic, 1, [this](const Event& event) { onMessage(event); },
-      [most_bytes = static_cast<std::size_t>(params_.track_queue_bytes)] {
-        const auto message = boost::make_shared<MessageBytes>();
-        message->most_bytes = most_bytes;
-        return message;
-      });
+  ros::SubscribeOptions options = bytesOptions(tracker_.topic, 1, static_cast<std::size_t>(params_.track_queue_bytes),
+                                               [this](const BytesEvent& event) { onMessage(event); });
   options.datatype = markers ? ros::message_traits::datatype<visualization_msgs::MarkerArray>()
                              : ros::message_traits::datatype<geometry_msgs::PoseArray>();
   options.md5sum = markers ? ros::message_traits::md5sum<visualization_msgs::MarkerArray>()

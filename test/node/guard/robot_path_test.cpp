@@ -246,8 +246,8 @@ TEST_F(PathListTest, ACommandReplacesAGoal) {
   EXPECT_EQ(watched(6), Lines{});
 }
 
-/// Claim: a goal that a newer goal of some joints replaces may go on with the others. When the robot has left this
-/// path, the path ends.
+/// Claim: if a newer goal names only some joints of a goal, the robot may still move the other joints along the older
+/// path. The older path ends when the robot has left it.
 TEST_F(PathListTest, TheOtherJointsOfAReplacedGoalMayGoOn) {
   putGoal("1", "a b", 20);
   note("1", GoalPhase::followed);
