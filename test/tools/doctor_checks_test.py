@@ -593,6 +593,14 @@ class DoctorChecks(unittest.TestCase):
         self.facts.status.sources[0].state = STALE
         self.expect("stamps_late", code=EXIT_WARN)
 
+    def test_late_stamps_explain_a_robot_that_is_incomplete_because_its_poses_are_stale(self):
+        self.facts.streams[0].offsets = self.facts.streams[1].offsets = [-0.5] * 50
+        robot = self.facts.status.sources[0]
+        robot.complete, robot.reason = False, "STALE robot/hand: its pose is 0.5 s old"
+        self.assertIn("its robots are STALE", self.expect("stamps_late").what)
+        robot.reason = "UNCOVERED robot/hand: PARSE: <geometry> is empty"
+        self.expect("source_incomplete", "stamps_late")
+
     def test_early_stamps_explain_refusals(self):
         self.facts.streams[0].offsets = self.facts.streams[1].offsets = [0.8] * 50
         self.facts.status.counters = [counter("tf.refused.CLOCK", 300)]

@@ -48,6 +48,11 @@ def clock_step(facts: Facts) -> float:
     return max((after - before for before, after in zip(facts.clock, facts.clock[1:])), default=0.0)
 
 
+def stale_and_incomplete(facts: Facts, robot: str) -> bool:
+    source = facts.source(robot)
+    return source is not None and not source.complete and source.reason.startswith("STALE ")
+
+
 def check_offset(facts: Facts, publisher: str, streams: List[TfStream], robots, findings: Findings):
     offsets = [offset for stream in streams for offset in stream.offsets]
     if len(offsets) < LEAST_MESSAGES:
@@ -66,11 +71,16 @@ def check_offset(facts: Facts, publisher: str, streams: List[TfStream], robots, 
             robots,
         )
         return
-    refused, lost = offset > settings.max_future, -offset > settings.lost_after
-    effect = "; the node refuses them" if refused else "; its robots are LOST" if lost else ""
+    effect = ""
+    if offset > settings.max_future:
+        effect = "; the node refuses them"
+    elif -offset > settings.lost_after:
+        effect = "; its robots are LOST"
+    elif late and any(stale_and_incomplete(facts, robot) for robot in robots):
+        effect = "; its robots are STALE and not complete"
     findings.add(
         "stamps_early" if early else "stamps_late",
-        ERROR if refused or lost else WARN,
+        ERROR if effect else WARN,
         f"The stamps of {publisher} on /tf are constantly {abs(offset):.2f} s in the {'future' if early else 'past'}"
         f" ({min(offsets):+.2f} .. {max(offsets):+.2f} s){effect}.",
         f"If it runs on another computer, set the clocks there and here by one server: {COMPARE_CLOCKS}. If not, see "
