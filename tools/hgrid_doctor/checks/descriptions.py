@@ -98,8 +98,7 @@ def check_meshes(facts: Facts, robot: RobotFacts, findings: Findings):
             "no_mesh_package",
             ERROR,
             f"The package '{package}' cannot be found, but {counted(len(uris), 'mesh file')} of robot "
-            f"'{robot.settings.name}' "
-            f"lie in it, for example {uris[0]}.",
+            f"'{robot.settings.name}' {'lies' if len(uris) == 1 else 'lie'} in it, for example {uris[0]}.",
             f"Install or build '{package}', or source its workspace in the shell or launch file that starts the node: "
             f"`source ~/my_ws/devel/setup.bash`, until `rospack find {package}` prints a folder. Then start the node "
             f"there again: {restart(facts)}.",
