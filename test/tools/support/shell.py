@@ -50,10 +50,19 @@ class Shell:
 
     def end_jobs(self):
         """Ends all commands that still run. roslaunch ends its nodes when it gets SIGTERM."""
-        self.type("kill $(jobs -p); kill -CONT $(jobs -p); wait")
+        self._end("$(jobs -pr)")
 
     def end_job(self, process):
-        self.type("kill %s; wait %s" % (process, process))
+        self._end(process)
+
+    def _end(self, processes):
+        """Ends processes in order; after half a minute, those that hang. A rospy node hangs if the signal comes just
+        while it holds the lock of a publisher's queue, because its shutdown waits for this lock."""
+        command = (
+            "kill {0}; kill -CONT {0}; for i in {{1..300}}; do kill -0 {0} || break; sleep 0.1; done; "
+            "kill -KILL {0}; wait {0}"
+        )
+        self.type("{ %s; } 2>/dev/null" % command.format(processes))
 
     def end(self):
         self.end_jobs()
