@@ -1,9 +1,8 @@
 # Finds the foreign libraries that the adapters use. The package, test/ and bench/ include this file. It sets:
 #
 #   HGRID_ADAPTER_INCLUDE_DIRS   include folders of all these libraries and of Eigen
-#   HGRID_ADAPTER_LIBRARIES      urdfdom, tinyxml2, FCL and OctoMap: the libraries that HGRID_ADAPTER_SOURCES link
+#   HGRID_ADAPTER_LIBRARIES      urdfdom, console_bridge and tinyxml2: the libraries that HGRID_ADAPTER_SOURCES link
 #   HGRID_ADAPTERS_MISSING       names of all headers and libraries that were not found; empty if all were found
-# HGRID_FCL_MISSING            names of those of FCL and OctoMap that were not found
 #
 # Searches headers and libraries by file name, because some CMake config files are unusable. On Ubuntu 20.04, tinyxml2
 # has none. The config file of urdfdom caches a result that differs between the first and the second run of cmake.
@@ -17,39 +16,24 @@ find_path(HGRID_CONSOLE_BRIDGE_INCLUDE_DIR console_bridge/console.h)
 find_library(HGRID_CONSOLE_BRIDGE_LIBRARY console_bridge)
 find_path(HGRID_TINYXML2_INCLUDE_DIR tinyxml2.h)
 find_library(HGRID_TINYXML2_LIBRARY tinyxml2)
-find_path(HGRID_FCL_INCLUDE_DIR fcl/narrowphase/distance.h)  # FCL 0.5 has no such file; Noetic installs 0.5 and 0.6
-find_library(HGRID_FCL_LIBRARY fcl)
-find_library(HGRID_CCD_LIBRARY ccd)
-find_library(HGRID_OCTOMAP_LIBRARY octomap)
-find_library(HGRID_OCTOMATH_LIBRARY octomath)
-
-# hgrid_look(missing library...): appends the names of all libraries that were not found to the list `missing`.
-macro(hgrid_look missing)
-  foreach(library ${ARGN})
-    mark_as_advanced(HGRID_${library})
-    if(NOT HGRID_${library})
-      list(APPEND ${missing} ${library})
-    endif()
-  endforeach()
-endmacro()
 
 set(HGRID_ADAPTERS_MISSING)
-set(HGRID_FCL_MISSING)
-hgrid_look(HGRID_ADAPTERS_MISSING URDF_PARSER_INCLUDE_DIR URDF_MODEL_INCLUDE_DIR URDF_EXCEPTION_INCLUDE_DIR
-  URDFDOM_MODEL_LIBRARY CONSOLE_BRIDGE_INCLUDE_DIR CONSOLE_BRIDGE_LIBRARY TINYXML2_INCLUDE_DIR TINYXML2_LIBRARY)
-hgrid_look(HGRID_FCL_MISSING FCL_INCLUDE_DIR FCL_LIBRARY CCD_LIBRARY OCTOMAP_LIBRARY OCTOMATH_LIBRARY)
-
-list(APPEND HGRID_ADAPTERS_MISSING ${HGRID_FCL_MISSING})
+foreach(library URDF_PARSER_INCLUDE_DIR URDF_MODEL_INCLUDE_DIR URDF_EXCEPTION_INCLUDE_DIR URDFDOM_MODEL_LIBRARY
+    CONSOLE_BRIDGE_INCLUDE_DIR CONSOLE_BRIDGE_LIBRARY TINYXML2_INCLUDE_DIR TINYXML2_LIBRARY)
+  mark_as_advanced(HGRID_${library})
+  if(NOT HGRID_${library})
+    list(APPEND HGRID_ADAPTERS_MISSING ${library})
+  endif()
+endforeach()
 
 if(NOT HGRID_ADAPTERS_MISSING)
   set(HGRID_ADAPTER_INCLUDE_DIRS ${EIGEN3_INCLUDE_DIRS} ${HGRID_URDF_PARSER_INCLUDE_DIR}
     ${HGRID_URDF_MODEL_INCLUDE_DIR} ${HGRID_URDF_EXCEPTION_INCLUDE_DIR} ${HGRID_CONSOLE_BRIDGE_INCLUDE_DIR}
-    ${HGRID_TINYXML2_INCLUDE_DIR} ${HGRID_FCL_INCLUDE_DIR})
+    ${HGRID_TINYXML2_INCLUDE_DIR})
   list(REMOVE_DUPLICATES HGRID_ADAPTER_INCLUDE_DIRS)
   list(REMOVE_ITEM HGRID_ADAPTER_INCLUDE_DIRS /usr/include)  # the compiler always searches this folder; naming it would
                                                              # break #include_next
-  set(HGRID_ADAPTER_LIBRARIES ${HGRID_URDFDOM_MODEL_LIBRARY} ${HGRID_CONSOLE_BRIDGE_LIBRARY} ${HGRID_TINYXML2_LIBRARY}
-    ${HGRID_FCL_LIBRARY} ${HGRID_CCD_LIBRARY} ${HGRID_OCTOMAP_LIBRARY} ${HGRID_OCTOMATH_LIBRARY})
+  set(HGRID_ADAPTER_LIBRARIES ${HGRID_URDFDOM_MODEL_LIBRARY} ${HGRID_CONSOLE_BRIDGE_LIBRARY} ${HGRID_TINYXML2_LIBRARY})
 endif()
 
 # hgrid_mesh_reader_options(target): sets the options for the target of proximity_mesh_reader.

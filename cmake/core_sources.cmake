@@ -67,10 +67,12 @@ set(HGRID_CORE_SOURCES
   src/explain/changed_pairs.cpp
   src/explain/explain.cpp
   src/geometry/aabb.cpp
+  src/geometry/arc_tangent.cpp
   src/geometry/half_space.cpp
   src/geometry/inner_depth.cpp
   src/geometry/oriented_box.cpp
   src/geometry/pose.cpp
+  src/geometry/rotation.cpp
   src/geometry/segment.cpp
   src/geometry/shape.cpp
   src/geometry/sine_cosine.cpp
@@ -101,6 +103,7 @@ set(HGRID_CORE_SOURCES
   src/narrow/mesh_tree.cpp
   src/narrow/narrow_phase.cpp
   src/narrow/ordered_solid.cpp
+  src/narrow/overlap.cpp
   src/narrow/plane_pair.cpp
   src/narrow/triangle_gap.cpp
   src/narrow/winding_tree.cpp
@@ -156,8 +159,6 @@ set(HGRID_CORE_SOURCES
   src/world/structure.cpp
 )
 set(HGRID_ADAPTER_SOURCES
-  src/adapters/fcl/fcl.cpp
-  src/adapters/fcl/fcl_solid.cpp
   src/adapters/mesh/mesh.cpp
   src/adapters/mesh/resource.cpp
   src/adapters/octomap/octomap.cpp

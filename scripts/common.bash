@@ -11,7 +11,7 @@ export PATH="/usr/bin:/usr/sbin:$PATH"  # ROS needs the python3 of the system; a
 build_packages=(
   catkin cmake g++ make ros-core-dev
   libconsole-bridge-dev libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev libeigen3-dev
-  libfcl-dev libnodelet-dev libnodeletlib-dev libtf2-msgs-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev
+  libnodelet-dev libnodeletlib-dev libtf2-msgs-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev
   libyaml-cpp-dev pluginlib-dev python3-setuptools rosbash
 )
 demo_packages=(
@@ -21,7 +21,8 @@ demo_packages=(
 )
 # shellcheck disable=SC2034  # read by scripts/test
 test_packages=(
-  "${demo_packages[@]}" catkin-lint libfaketime libgtest-dev libnodeletlib-tools liboctomap-dev libtf2-dev locales
+  "${demo_packages[@]}" catkin-lint libfaketime libfcl-dev libgtest-dev libnodeletlib-tools liboctomap-dev libtf2-dev
+  locales
   python3-dynamic-reconfigure python3-rosbag python3-rosnode python3-rosparam python3-rostest ros-trajectory-msgs
   rospack-tools
 )

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "hgrid_proximity/adapters/mesh.h"
 #include "hgrid_proximity/adapters/octomap.h"
 #include "hgrid_proximity/adapters/srdf.h"
@@ -238,7 +238,7 @@ int plan(Arguments& arguments) {
   const hgrid::RobotModel model =
       readRobot(arguments.files[0], arguments.options["--packages"], arguments.options["--mesh-reader"]);
   const std::string srdf = arguments.options["--srdf"];
-  const std::shared_ptr<hgrid::NarrowPhase> narrow = hgrid::makeFclNarrowPhase();
+  const std::shared_ptr<hgrid::NarrowPhase> narrow = hgrid::makeCoreNarrowPhase();
   hgrid::Scene scene{hgrid::SceneOptions{}};
   addRobot(scene, *narrow, model, srdf.empty() ? hgrid::LinkRules{} : hgrid::readSrdf(textOf(srdf)));
   addMap(scene, *narrow, arguments.files[1]);

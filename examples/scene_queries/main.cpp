@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "hgrid_proximity/adapters/urdf.h"
 #include "hgrid_proximity/distances/pair_meter.h"
 #include "hgrid_proximity/queries/query.h"
@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
   std::ifstream file(argc == 2 ? word : "");
   const std::string urdf(std::istreambuf_iterator<char>(file), {});
   if (urdf.empty()) return std::fputs("scene_queries needs the path of a URDF file; see --help\n", stderr), 2;
-  const std::shared_ptr<hgrid::NarrowPhase> narrow = hgrid::makeFclNarrowPhase();
+  const std::shared_ptr<hgrid::NarrowPhase> narrow = hgrid::makeCoreNarrowPhase();
   hgrid::Scene scene{hgrid::SceneOptions{}};
   putRobot(scene, *narrow, hgrid::readUrdf(urdf, {}), 0.7);  // {}: no mesh loader, because this robot has no mesh files
   hgrid::Body table;

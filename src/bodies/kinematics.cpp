@@ -7,6 +7,7 @@
 #include <map>
 
 #include "bodies/forward_kinematics.h"
+#include "geometry/arc_tangent.h"
 #include "geometry/infinity.h"
 
 namespace hgrid {
@@ -39,7 +40,7 @@ Pose jointFromPlane(const Eigen::Vector3d& axis) {
 double angleAbout(const Eigen::Vector3d& axis, const Eigen::Matrix3d& turn) {
   Eigen::Quaterniond rotation(turn);
   if (rotation.w() < 0.0) rotation.coeffs() = -rotation.coeffs();
-  return 2.0 * std::atan2(rotation.vec().dot(axis), rotation.w());
+  return 2.0 * arcTangent(rotation.vec().dot(axis), rotation.w());
 }
 
 /// Returns the angle that turns a link in the same way and is within the limits of its joint, if there is one.

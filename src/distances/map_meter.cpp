@@ -76,6 +76,7 @@ MapProximity measureMap(const NarrowPhase& narrow_phase, const Snapshot& snapsho
   MapProximity nearest;
   nearest.proximity.status = Measure::apart;
   nearest.proximity.distance = kInfinity;
+  double least_bound = kInfinity;
   const MapPair pair(snapshot, first, second);
   if (!pair.isReady()) return {};
   pair.visit(up_to, [&](std::uint32_t shape, const Voxel& voxel, const PlacedSolid& a, const PlacedSolid& b) {
@@ -83,6 +84,7 @@ MapProximity measureMap(const NarrowPhase& narrow_phase, const Snapshot& snapsho
     const double limit = full ? nearest.cells.back().distance : up_to;
     const Proximity found = narrow_phase.measure(a, b, limit);
     if (!(found.distance <= limit)) return limit;
+    least_bound = std::min(least_bound, found.lower_bound);
     if (found.distance < nearest.proximity.distance) {
       nearest.shape = shape;
       nearest.proximity = found;
@@ -105,6 +107,7 @@ MapProximity measureMap(const NarrowPhase& narrow_phase, const Snapshot& snapsho
     if (cells.size() < kNearCells) return up_to;
     return cells.back().distance > 0.0 ? cells.back().distance : kNoFurther;
   });
+  if (nearest.proximity.status == Measure::apart) nearest.proximity.lower_bound = least_bound;
   return nearest;
 }
 

@@ -59,7 +59,7 @@ NearestShapes nearestShapes(const NarrowPhase& narrow_phase, const Snapshot& sna
   collectShapePairs(snapshot, first, second, up_to, shape_pairs);
   nearest.proximity.status = Measure::apart;
   nearest.proximity.distance = std::numeric_limits<double>::infinity();
-  double least = up_to;
+  double least = up_to, least_bound = nearest.proximity.distance;
   for (const ShapePair& shapes : shape_pairs) {
     if (shapes.gap > least) break;
     Proximity found;
@@ -71,9 +71,11 @@ NearestShapes nearestShapes(const NarrowPhase& narrow_phase, const Snapshot& sna
     if (found.status == Measure::not_measured || found.distance < nearest.proximity.distance) {
       nearest = {shapes.first, shapes.second, found, contact, {}};
     }
+    least_bound = std::min(least_bound, found.lower_bound);
     if (found.status != Measure::apart) break;  // no other pair of shapes can be nearer
     least = std::min(least, found.distance);
   }
+  if (nearest.proximity.status == Measure::apart) nearest.proximity.lower_bound = least_bound;
   return nearest;
 }
 

@@ -24,6 +24,7 @@ bool isFresh(const Snapshot& snapshot, std::uint32_t body) {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double kRounding = 1e-12;      // relative to sizes and coordinates: rounding errors of two measurements
 constexpr double kLittle = 0.25;         // a move is small if it is less than this fraction of the report distance
 constexpr double kSmoothing = 0.05;      // [s] time constant of the low-pass filter for the closing speed
 constexpr std::size_t kPairsPerJob = 8;  // number of pairs that a thread measures before it takes the next job
@@ -65,6 +66,7 @@ struct PairMeter::State {
   void recall(const Snapshot& snapshot);
   static std::shared_ptr<const MapCells> mapOf(const Snapshot& snapshot, const Known& known);
   static double motionSince(const Snapshot& snapshot, const Known& known);
+  static double errorOf(const Snapshot& snapshot, const Known& known);
   static void assess(const Snapshot& snapshot, Job& job);
   void measureDue(const Snapshot& snapshot, Clock::time_point begin);
   void measureUntil(const Snapshot& snapshot, Clock::time_point deadline, std::size_t at_least);
@@ -142,7 +144,8 @@ double PairMeter::State::motionSince(const Snapshot& snapshot, const Known& know
 void PairMeter::State::assess(const Snapshot& snapshot, Job& job) {
   Known& now = job.known;
   job.moved = motionSince(snapshot, now);
-  const double at_least = std::min(now.proximity.distance, now.up_to) - job.moved;  // NaN without a measured distance
+  const double at_least =
+      std::min(now.proximity.lower_bound, now.up_to) - job.moved;  // NaN without a measured distance
   job.bound = std::max(job.pair->gap, now.proximity.status == Measure::not_measured ? 0.0 : at_least);
   const bool enough_known = job.moved == 0.0 ? now.up_to >= job.report : at_least > job.report;
   job.left_out = !now.measured || !enough_known;
@@ -186,10 +189,21 @@ void PairMeter::State::measureUntil(const Snapshot& snapshot, Clock::time_point 
   due.erase(std::remove_if(due.begin(), due.end(), [](const Job* job) { return !job->left_out; }), due.end());
 }
 
+/// Returns a bound [m] of the error of a measured distance, and of the next one. It is infinite for a plane.
+double PairMeter::State::errorOf(const Snapshot& snapshot, const Known& known) {
+  double size = known.proximity.distance;
+  for (const std::uint32_t body : {known.first, known.second}) {
+    if (!snapshot.structure().isMap(body)) size += reachOf(snapshot.structure().bodies[body]);
+    size += (snapshot.poses()[body].world_from_body.translation() - snapshot.origin()).norm();
+  }
+  return kRounding * size;
+}
+
 void PairMeter::State::perform(const Snapshot& snapshot, Job& job, std::vector<ShapePair>& shape_pairs) const {
   Known& now = job.known;
-  // The distance cannot exceed this bound, so no larger distance is searched. 1e-6 is larger than any solver error.
-  const double at_most = now.proximity.distance + job.moved + 1e-6;
+  // The distance cannot exceed this bound by more than the errors of two measurements, so no larger distance is
+  // searched.
+  const double at_most = now.proximity.distance + job.moved + errorOf(snapshot, now);
   // After a small move, search a little farther than the report distance, so that the next tick need not measure.
   now.up_to = job.moved < kLittle * job.report ? (1.0 + kLittle) * job.report : job.report;
   now.world_from_first = snapshot.poses()[now.first].world_from_body;
@@ -237,9 +251,9 @@ PairDistance PairMeter::State::entryOf(const Snapshot& snapshot, const Job& job)
   }
   const bool has_distance = entry.proximity.status != Measure::not_measured;
   if (job.known.proximity.status != Measure::not_measured) entry.measured = job.known.measured_at;
-  const double at_poses = has_distance ? entry.proximity.distance : job.bound;
+  const double at_poses = has_distance ? entry.proximity.lower_bound : job.bound;
   entry.lower_bound = std::max(0.0, at_poses - snapshot.reachBetween(entry.first, entry.second));
-  const double least = std::isnan(entry.proximity.distance) ? entry.gap : entry.proximity.distance;
+  const double least = std::isnan(entry.proximity.distance) ? entry.gap : entry.proximity.lower_bound;
   if (!isFresh(snapshot, entry.first) || !isFresh(snapshot, entry.second)) entry.closing_speed = Proximity::kUnknown;
   if (isContact(entry.proximity.status)) {
     entry.approach = Approach::contact;

@@ -38,7 +38,7 @@ InnerDepth inBox(const Vector& half, const Vector& point) {
 
 InnerDepth inCone(double height, double radius, const Vector& point) {
   const Vector around(point.x(), point.y(), 0.0);
-  const double slant = std::hypot(height, radius);
+  const double slant = std::sqrt(height * height + radius * radius);
   const Vector outward = (height * directionOf(around) + radius * Vector::UnitZ()) / slant;
   const double below_side = ((0.5 * height - point.z()) * radius - around.norm() * height) / slant;
   return least({{below_side, outward}, {point.z() + 0.5 * height, -Vector::UnitZ()}});

@@ -81,7 +81,7 @@ Shape::Shape(ShapeKind kind, const Eigen::Vector3d& size, std::shared_ptr<const 
       break;
     case ShapeKind::cylinder:
     case ShapeKind::cone:
-      reach_ = std::hypot(0.5 * height, radius);
+      reach_ = std::sqrt(0.25 * height * height + radius * radius);
       break;
     case ShapeKind::capsule:
       reach_ = 0.5 * height + radius;

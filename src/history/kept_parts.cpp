@@ -5,7 +5,7 @@
 namespace hgrid {
 namespace {
 
-// [bytes] A mesh as a solid has about two nodes of a tree per triangle. FCL's nodes are the largest.
+// [bytes] A mesh as a solid has about two nodes of a tree per triangle.
 constexpr std::size_t kPerVertex = 100, kPerTriangle = 800;
 constexpr std::size_t kPerPart = 64;                        // [bytes] overhead of a shared object
 constexpr std::size_t kCubes = (Voxel::kLevels + 1) * 256;  // [bytes] MapCells::cubes

@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "geometry/infinity.h"
+#include "geometry/rotation.h"
+#include "hgrid_proximity/geometry/aabb.h"
 
 namespace hgrid {
 namespace {
@@ -82,12 +84,12 @@ class BoxTreeBuilder {
     std::array<Vector, kTurns> sides;
     for (std::size_t i = 0; i < kTurns; ++i) {
       const double angle = M_PI * double(i) / double(kTurns);
-      sides[i] = std::cos(angle) * solver.eigenvectors().col(2) + std::sin(angle) * solver.eigenvectors().col(1);
+      sides[i] = cosine(angle) * solver.eigenvectors().col(2) + sine(angle) * solver.eigenvectors().col(1);
     }
     const auto [shorter, longer] = smallestRectangle(range, sides);
     Matrix axes;
     axes << solver.eigenvectors().col(0).transpose(), sides[shorter].transpose(), sides[longer].transpose();
-    return axes.cast<float>().cast<double>();  // as the node stores them
+    return axes.unaryExpr(&throughFloat);  // as the node stores them
   }
 
   /// Returns the numbers of the two perpendicular sides of the smallest rectangle around the corners, shorter first.

@@ -7,68 +7,32 @@
 #include <stdexcept>
 
 #include "geometry/infinity.h"
+#include "narrow/overlap.h"
 
 namespace hgrid {
 namespace {
 
 using Vector = Eigen::Vector3d;
 
-// [m] Largest accepted difference between the gap and the distance of the two nearest points, besides rounding.
-constexpr double kDisagreement = 1e-6;
-// Bounds of a gap count as equal if they differ by at most 1e-6 m, the promised precision of distances, plus this part
-// of the size of the solids and of their distance. Among shapes of kilometers, searches end before their bounds are
-// equal.
-constexpr double kUnsettled = 1e-7;
+// [m] Up to this length, the middle between two nearest points counts as a point of both solids.
+constexpr double kSamePoint = 1e-6;
 
 const ConvexSolid& convex(const Side& side) { return static_cast<const ConvexSolid&>(side.solid); }
 
-/// Returns the gap of two cores; it is infinite if it is larger than `up_to` [m].
-CoreGap gapOfCores(const Side& a, const Side& b, const Pose& a_from_b, double up_to) {
-  CoreGap gap = gapOf(convex(a).core(), convex(b).core(), a_from_b, up_to);
-  if (gap.lower > up_to) gap.lower = gap.upper = kInfinity;
-  return gap;
-}
-
-/// Returns an overlap of depth 0 if the cores only touch. It moves them apart by kHair and then takes their nearest
-/// points.
-std::optional<Overlap> touchOf(const ConvexSolid& a, const ConvexSolid& b, const Pose& a_from_b) {
-  const double distance = a_from_b.translation().norm();
-  if (!(distance > 0.0)) return std::nullopt;
-  Pose apart = a_from_b;
-  apart.translation() += kHair / distance * a_from_b.translation();
-  const CoreGap gap = gapOf(a.core(), b.core(), apart, kHair);
-  if (!(gap.lower > 0.0)) return std::nullopt;
-  const Vector between = gap.on_second - gap.on_first;
-  return Overlap{0.0, between.normalized(), gap.on_first + 0.5 * between};
-}
-
-/// Sets depth, normal and points of `result` for two cores that meet. Sets nothing if moving the solids apart by this
-/// depth does not separate them.
-void describeContact(const Side& a, const Side& b, const Pose& a_from_b, FindOverlap findOverlap, Proximity& result) {
-  if (!convex(a).isShape() || !convex(b).isShape()) return;
-  const double around = a.around + b.around;
-  for (const FindOverlap find : {findOverlap, FindOverlap{touchOf}}) {
-    const std::optional<Overlap> overlap = find(convex(a), convex(b), a_from_b);
-    if (!overlap) continue;
-    const double depth = overlap->depth;
-    const Vector& normal = overlap->normal;
-    Pose apart = a_from_b;
-    apart.translation() += (depth + around + kHair) * normal;
-    if (!(gapOf(convex(a).core(), convex(b).core(), apart, around).lower > around)) continue;
-    result.normal = normal;
-    result.depth = depth + around;
-    result.on_first = overlap->point + (0.5 * depth + a.around) * normal;
-    result.on_second = overlap->point - (0.5 * depth + b.around) * normal;
-    return;
-  }
-}
-
 }  // namespace
+
+Pose relativePose(const Side& a, const Side& b) {
+  const auto back = a.world_from_shape.linear().transpose();
+  Pose a_from_b = Pose::Identity();
+  a_from_b.linear() = back * b.world_from_shape.linear();
+  a_from_b.translation() = back * (b.world_from_shape.translation() - a.world_from_shape.translation());
+  return a_from_b;
+}
 
 Proximity answerOf(Measure status, double distance) {
   Proximity result;
   result.status = status;
-  result.distance = distance;
+  result.distance = result.lower_bound = distance;
   return result;
 }
 
@@ -88,77 +52,83 @@ std::optional<Proximity> answerByReach(const Side& a, const Side& b, const Pose&
   return std::nullopt;
 }
 
+GapLimits limitsOf(const Side& a, const Side& b, double up_to) {
+  const double around = a.around + b.around;
+  return {around, std::max(0.0, up_to) + around + kTouchingGap};
+}
+
 Proximity answerByGap(const Side& a, const Side& b, const Pose& a_from_b, const CoreGap& gap, double up_to) {
   const double around = a.around + b.around;
-  const double size = a.solid.reach() + b.solid.reach() + a_from_b.translation().norm(), rounding = 1e-12 * size;
-  // If the search ended before the two bounds were equal, only the lower bound is certain.
-  const double proved = gap.upper - gap.lower > kDisagreement + kUnsettled * size ? gap.lower : gap.upper;
-  Proximity result = answerOf(Measure::apart, std::max(0.0, proved - around));
-  if (result.distance > up_to) return answerOf(Measure::apart, kInfinity);
+  if (gap.lower > up_to + around) return answerOf(Measure::apart, kInfinity);
   const Vector between = gap.on_second - gap.on_first;
-  const double length = between.norm();
-  if (!(std::abs(length - gap.upper) <= kDisagreement + rounding)) return answerOf(Measure::failed, 0.0);
-  if (!(std::min(gap.lower, gap.upper) > around)) {  // rounding can make lower greater than upper
-    result.status = Measure::contact;
-    result.distance = 0.0;
+  const double size = a.solid.reach() + b.solid.reach() + a_from_b.translation().norm();
+  if (!(std::abs(between.norm() - gap.upper) <= gapRounding(size))) return answerOf(Measure::failed, 0.0);
+  Proximity result;
+  if (gap.lower > around) {
+    result.status = Measure::apart;
+    result.distance = gap.upper - around;
+    result.lower_bound = gap.lower - around;
+    if (result.distance > up_to) {  // by less than the error of the measurement
+      result.distance = kInfinity;
+      return result;
+    }
+  } else {
+    result = answerOf(Measure::contact, 0.0);
   }
-  if (length > 0.0) {
-    result.normal = between / length;
-    result.on_first = gap.on_first + a.around * result.normal;
-    result.on_second = gap.on_second - b.around * result.normal;
-  }
+  if (gap.normal.isZero()) return result;  // not known
+  result.normal = result.status == Measure::contact ? gap.apart_along : gap.normal;
+  result.on_first = gap.on_first + a.around * result.normal;
+  result.on_second = gap.on_second - b.around * result.normal;
   return result;
 }
 
 Contact contactByGap(const Side& a, const Side& b, const CoreGap& gap) {
   const double around = a.around + b.around;
   const Vector between = gap.on_second - gap.on_first;
-  const double length = between.norm();
   Contact contact;
   // Otherwise, the search could not prove that they are apart, or it found nothing.
-  if (length <= around + kDisagreement && gap.upper < kInfinity) {
+  if (gap.upper <= around + kSamePoint) {
     contact.point = gap.on_first + (around > 0.0 ? a.around / around : 0.5) * between;
   }
   if (gap.lower > 0.0) {
-    contact.normal = between / length;
-    contact.depth = std::max(0.0, around - gap.upper);
+    contact.normal = gap.apart_along;
+    contact.depth = std::max(0.0, around - gap.lower);
   }
   return contact;
 }
 
-Proximity measureConvex(const Side& a, const Side& b, double up_to, FindOverlap findOverlap) {
-  const Pose a_from_b = a.world_from_shape.inverse() * b.world_from_shape;
+Proximity measureConvex(const Side& a, const Side& b, double up_to) {
+  const Pose a_from_b = relativePose(a, b);
   if (const auto answer = answerByReach(a, b, a_from_b, up_to)) return *answer;
-  const double around = a.around + b.around;
-  const CoreGap gap = gapOfCores(a, b, a_from_b, std::max(0.0, up_to) + around + kTouchingGap);
+  const CoreGap gap = gapOf(convex(a).core(), convex(b).core(), a_from_b, limitsOf(a, b, up_to));
   if (std::isnan(gap.lower) || std::isnan(gap.upper)) return answerOf(Measure::failed, 0.0);
-  if (gap.lower <= 0.0) {
-    Proximity result = answerOf(Measure::contact, 0.0);
-    describeContact(a, b, a_from_b, findOverlap, result);
-    return result;
-  }
+  if (gap.lower <= 0.0) return answerOf(Measure::contact, 0.0);
   Proximity result = answerByGap(a, b, a_from_b, gap, up_to);
-  if (result.status == Measure::contact) result.depth = std::max(0.0, around - gap.upper);
+  if (result.status == Measure::contact && !result.normal.hasNaN()) {
+    result.depth = std::max(0.0, a.around + b.around - gap.lower);
+  }
   return result;
 }
 
-Contact contactOfConvex(const Side& a, const Side& b, FindOverlap findOverlap) {
-  const Pose a_from_b = a.world_from_shape.inverse() * b.world_from_shape;
-  const CoreGap gap = gapOf(convex(a).core(), convex(b).core(), a_from_b, a.around + b.around + kTouchingGap);
+Contact contactOfConvex(const Side& a, const Side& b) {
+  const Pose a_from_b = relativePose(a, b);
+  const CoreGap gap = gapOf(convex(a).core(), convex(b).core(), a_from_b, {0.0, limitsOf(a, b, 0.0).enough});
   Contact contact = contactByGap(a, b, gap);
-  if (gap.lower <= 0.0) {
-    Proximity described;
-    describeContact(a, b, a_from_b, findOverlap, described);
-    contact.normal = described.normal;
-    contact.depth = described.depth;
+  if (gap.lower > 0.0) {
+    contact.depth_at_least = std::max(0.0, a.around + b.around - gap.upper);
+    return contact;
   }
+  const Overlap overlap = overlapOf(convex(a).core(), convex(b).core(), a_from_b);
+  contact.normal = overlap.normal;
+  contact.depth = overlap.depth + a.around + b.around;
+  contact.depth_at_least = overlap.at_least + a.around + b.around;
   return contact;
 }
 
-std::vector<Contact> contactsOfConvex(const Side& a, const Side& b, std::size_t most, FindOverlap findOverlap) {
-  const Measure status = most > 0 ? measureConvex(a, b, 0.0, findOverlap).status : Measure::not_measured;
+std::vector<Contact> contactsOfConvex(const Side& a, const Side& b, std::size_t most) {
+  const Measure status = most > 0 ? measureConvex(a, b, 0.0).status : Measure::not_measured;
   if (!hasContacts(status)) return {};
-  return {contactOfConvex(a, b, findOverlap)};
+  return {contactOfConvex(a, b)};
 }
 
 }  // namespace hgrid

@@ -12,27 +12,20 @@
 
 namespace hgrid {
 
-/// The narrow phase of the core. A subclass can add a library that proposes depth and normal of overlapping solids.
-class CoreNarrowPhase : public OrderedNarrowPhase {
+/// The narrow phase of the core.
+class CoreNarrowPhase final : public OrderedNarrowPhase {
  public:
-  explicit CoreNarrowPhase(FindOverlap findOverlap) : findOverlap_(findOverlap) {}
-
   std::shared_ptr<const Solid> solidOf(const Shape& shape) final;
   std::shared_ptr<const Solid> point() const final { return point_; }
   std::shared_ptr<const Solid> plane() const final { return plane_; }
   std::shared_ptr<const Solid> needle(double length) const final;
   std::shared_ptr<const Solid> block(const Eigen::Vector3d& size) const final;
 
- protected:
+ private:
   Proximity measureInOrder(const Side& a, const Side& b, double up_to) const final;
   Contact measureContactInOrder(const Side& a, const Side& b) const final;
   std::vector<Contact> contactsInOrder(const Side& a, const Side& b, std::size_t most) const final;
 
- private:
-  /// Creates a ConvexSolid of the kind that `findOverlap` expects.
-  virtual std::shared_ptr<const Solid> convexSolidOf(const Shape& shape) const;
-
-  const FindOverlap findOverlap_;
   const std::shared_ptr<const Solid> point_ = std::make_shared<ConvexSolid>(ConvexCore::point(), std::vector<double>{});
   const std::shared_ptr<const Solid> plane_ = std::make_shared<PlaneSolid>();
   PreparedMeshes meshes_;

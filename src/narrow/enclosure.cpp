@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/rotation.h"
+
 namespace hgrid {
 namespace {
 
@@ -29,7 +31,7 @@ std::vector<Eigen::Vector3d> directions() {
     const int i = 27 * k % kLines;
     const double z = 1.0 - (2.0 * i + 1.0) / kLines, around = i * M_PI * (3.0 - std::sqrt(5.0)) + 0.1;
     const double radius = std::sqrt(1.0 - z * z);
-    result.emplace_back(radius * std::cos(around), radius * std::sin(around), z);
+    result.emplace_back(radius * cosine(around), radius * sine(around), z);
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/rotation.h"
 #include "narrow/mesh_solid.h"
 
 namespace hgrid {
@@ -58,7 +59,7 @@ std::vector<Sphere> spheresOfCylinder(double height, double radius) {
   const double flat = 0.5 * height;
   std::vector<Sphere> spheres{{Vector::Zero(), flat}};
   for (int i = 0; i < 6; ++i) {
-    const double x = std::cos(i * M_PI / 3.0), y = std::sin(i * M_PI / 3.0);
+    const double x = cosine(i * M_PI / 3.0), y = sine(i * M_PI / 3.0);
     spheres.push_back({(radius - flat) * Vector(x, y, 0.0), flat});
   }
   return spheres;
@@ -66,7 +67,7 @@ std::vector<Sphere> spheresOfCylinder(double height, double radius) {
 
 /// Returns the largest sphere in a cone.
 Sphere sphereOfCone(double height, double radius) {
-  const double inner = radius * height / (radius + std::hypot(radius, height));
+  const double inner = radius * height / (radius + std::sqrt(radius * radius + height * height));
   return {{0.0, 0.0, inner - 0.5 * height}, inner};
 }
 
@@ -151,7 +152,7 @@ std::vector<Sphere> innerSpheresOf(const MeshTree& tree, const Enclosure& enclos
         const Vector share((x + 0.5) / count[0], (y + 0.5) / count[1], (z + 0.5) / count[2]);
         const Vector center = low + share.cwiseProduct(size);
         if (enclosure.holds(center) != Inside::yes) continue;
-        const CoreGap gap = tree.gapTo(point, Pose(Eigen::Translation3d(center)), size.norm());
+        const CoreGap gap = tree.gapTo(point, Pose(Eigen::Translation3d(center)), {0.0, size.norm()});
         if (gap.lower > 0.0) spheres.push_back({center, gap.lower});
       }
     }

@@ -42,7 +42,7 @@ std::vector<Vector> cornersOf(const std::vector<Vector>& points, double rounding
   for (std::size_t i = 0; i < points.size(); ++i) {
     while (!is_corner[i]) {
       const CoreGap gap = gapOf(ConvexCore::hull(&points[i], 1), ConvexCore::hull(corners.data(), corners.size()),
-                                Pose::Identity(), rounding);
+                                Pose::Identity(), {rounding, rounding});
       if (gap.upper <= rounding) break;
       const Vector outward = gap.on_first - gap.on_second;
       std::size_t farthest = i;

@@ -13,16 +13,20 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
+// [m] To check a depth, a solid is moved by the depth and this length. Then the two must be apart.
+constexpr double kAfterMove = 1e-6;
+
 bool isMesh(const Side& side) { return side.solid.kind() == ShapeKind::mesh; }
 const MeshSolid& meshOf(const Side& side) { return static_cast<const MeshSolid&>(side.solid); }
 const ConvexSolid& convexOf(const Side& side) { return static_cast<const ConvexSolid&>(side.solid); }
 
-/// Returns the gap of a mesh and another solid, in the frame of the mesh. It is infinite if it is larger than `up_to`
-/// [m].
+/// Returns the gap of a mesh and another solid, in the frame of the mesh. It is infinite if the two are farther apart
+/// than `up_to` [m], by more than kTouchingGap.
 CoreGap gapOfMesh(const Side& mesh, const Side& other, const Pose& mesh_from_other, double up_to) {
   const MeshTree& tree = meshOf(mesh).tree();
-  return isMesh(other) ? tree.gapTo(meshOf(other).tree(), mesh_from_other, up_to)
-                       : tree.gapTo(convexOf(other), mesh_from_other, up_to);
+  const GapLimits limits = limitsOf(mesh, other, up_to);
+  return isMesh(other) ? tree.gapTo(meshOf(other).tree(), mesh_from_other, limits)
+                       : tree.gapTo(convexOf(other), mesh_from_other, limits);
 }
 
 /// Whether the core of one solid is inside the other, and a point of the inner core.
@@ -77,17 +81,17 @@ bool isPoint(const Side& side) { return !isMesh(side) && side.around == 0.0 && s
 /// Sets depth and normal of a point inside a mesh, if its surface was found within `up_to` [m].
 void describeDepth(const Side& mesh, const CoreGap& gap, double up_to, Proximity& result) {
   if (!(gap.upper <= up_to)) return;
+  const Vector outward = gap.on_first - gap.on_second;
   result.depth = gap.upper + mesh.around;
-  result.normal = (gap.on_first - gap.on_second) / gap.upper;
+  result.normal = outward / outward.norm();
 }
 
 }  // namespace
 
 Proximity measureMesh(const Side& mesh, const Side& other, double up_to) {
-  const Pose mesh_from_other = mesh.world_from_shape.inverse() * other.world_from_shape;
+  const Pose mesh_from_other = relativePose(mesh, other);
   if (const auto answer = answerByReach(mesh, other, mesh_from_other, up_to)) return *answer;
-  const double around = mesh.around + other.around;
-  const CoreGap gap = gapOfMesh(mesh, other, mesh_from_other, std::max(0.0, up_to) + around + kTouchingGap);
+  const CoreGap gap = gapOfMesh(mesh, other, mesh_from_other, up_to);
   if (std::isnan(gap.lower) || std::isnan(gap.upper)) return answerOf(Measure::failed, 0.0);
   if (gap.lower <= 0.0) return answerOf(Measure::contact, 0.0);
   const Enclosed inside = enclosed(mesh, other, mesh_from_other);
@@ -97,14 +101,16 @@ Proximity measureMesh(const Side& mesh, const Side& other, double up_to) {
     return result;
   }
   Proximity result = answerByGap(mesh, other, mesh_from_other, gap, up_to);
-  if (result.status == Measure::contact && isPoint(other)) result.depth = std::max(0.0, mesh.around - gap.upper);
+  if (result.status == Measure::contact && isPoint(other) && !result.normal.hasNaN()) {
+    result.depth = std::max(0.0, mesh.around - gap.upper);
+  }
   return result;
 }
 
 Contact contactOfMesh(const Side& mesh, const Side& other) {
-  const Pose mesh_from_other = mesh.world_from_shape.inverse() * other.world_from_shape;
+  const Pose mesh_from_other = relativePose(mesh, other);
   const double around = mesh.around + other.around;
-  const CoreGap gap = gapOfMesh(mesh, other, mesh_from_other, around + kTouchingGap);
+  const CoreGap gap = gapOfMesh(mesh, other, mesh_from_other, 0.0);
   if (gap.lower > around) {  // otherwise the surfaces have points in common, also if one is inside the other
     const Enclosed inside = enclosed(mesh, other, mesh_from_other);
     if (inside.status != Measure::apart) {
@@ -116,7 +122,7 @@ Contact contactOfMesh(const Side& mesh, const Side& other) {
   Contact contact = contactByGap(mesh, other, gap);
   // The move separates the two nearest parts. Other parts may be in its way.
   Pose moved = other.world_from_shape;
-  moved.translation() += (contact.depth + kHair) * (mesh.world_from_shape.linear() * contact.normal);
+  moved.translation() += (contact.depth + kAfterMove) * (mesh.world_from_shape.linear() * contact.normal);
   const double padding = other.around - other.solid.radius();
   if (gap.lower > 0.0 && measureMesh(mesh, Side({other.solid, moved, padding}), 0.0).status == Measure::apart) {
     return contact;
@@ -129,17 +135,17 @@ Contact contactOfMesh(const Side& mesh, const Side& other) {
 std::vector<Contact> contactsOfMesh(const Side& mesh, const Side& other, std::size_t most) {
   const Measure status = most > 0 ? measureMesh(mesh, other, 0.0).status : Measure::not_measured;
   if (!hasContacts(status)) return {};
-  const Pose mesh_from_other = mesh.world_from_shape.inverse() * other.world_from_shape;
-  const double reach = mesh.around + other.around + kTouchingGap;
+  const Pose mesh_from_other = relativePose(mesh, other);
+  const GapLimits limits = limitsOf(mesh, other, 0.0);
   std::vector<Contact> contacts;
   const auto met = [&](const CoreGap& gap) {
     contacts.push_back(contactByGap(mesh, other, gap));
     return contacts.size() < most;
   };
   if (isMesh(other)) {
-    meshOf(mesh).tree().meetings(meshOf(other).tree(), mesh_from_other, reach, met);
+    meshOf(mesh).tree().meetings(meshOf(other).tree(), mesh_from_other, limits, met);
   } else {
-    meshOf(mesh).tree().meetings(convexOf(other), mesh_from_other, reach, met);
+    meshOf(mesh).tree().meetings(convexOf(other), mesh_from_other, limits, met);
   }
   if (!contacts.empty()) return contacts;
   const Enclosed inside = enclosed(mesh, other, mesh_from_other);

@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 
+#include "geometry/infinity.h"
 #include "narrow/box_search.h"
 #include "narrow/gjk.h"
 
@@ -23,8 +24,8 @@ std::vector<Triangle> trianglesOf(const TriangleMesh& mesh) {
 
 /// Measures a triangle of the mesh and a convex core, in the frame of the mesh.
 struct CoreMeter {
-  CoreGap operator()(std::size_t i, std::size_t, double enough) const {
-    return gapOf(ConvexCore::hull(triangles[i].data(), 3), core, mesh_from_solid, enough);
+  CoreGap operator()(std::size_t i, std::size_t, const GapLimits& limits) const {
+    return gapOf(ConvexCore::hull(triangles[i].data(), 3), core, mesh_from_solid, limits);
   }
   const std::vector<Triangle>& triangles;
   const ConvexCore& core;
@@ -40,10 +41,10 @@ struct TriangleMeter {
         mesh_from_other(pose),
         size(2.0 * (a_boxes.center.norm() + a_boxes.reach + (pose * b_boxes.center).norm() + b_boxes.reach)) {}
 
-  CoreGap operator()(std::size_t i, std::size_t j, double enough) const {
+  CoreGap operator()(std::size_t i, std::size_t j, const GapLimits& limits) const {
     const Triangle& t = theirs[j];
     return gapOfTriangles(mine[i], {mesh_from_other * t[0], mesh_from_other * t[1], mesh_from_other * t[2]}, size,
-                          enough);
+                          limits);
   }
   const std::vector<Triangle>&mine, &theirs;
   const Pose& mesh_from_other;
@@ -77,27 +78,36 @@ class HullsAreFarther {
   int attempts_;  // how many are left
 };
 
-/// Returns the least gap of two parts; it is infinite if it is larger than `up_to` [m].
+/// Returns the least gap of two parts; it is infinite if it is larger than GapLimits::enough.
 template <class Meter, class IsFarther>
-CoreGap leastGap(BoxSearch search, const Meter& measure, double up_to, IsFarther isFarther) {
+CoreGap leastGap(BoxSearch search, const Meter& measure, const GapLimits& limits, IsFarther isFarther) {
+  const double up_to = limits.enough;
   CoreGap best;
-  double least = best.lower = std::numeric_limits<double>::infinity();  // of the lower bounds of all parts
+  std::size_t best_i = 0, best_j = 0;
+  double least = best.lower = kInfinity;  // of the lower bounds of all parts
   const auto visit = [&](std::size_t i, std::size_t j) {
     const double enough = std::min(up_to, best.upper);
-    const CoreGap gap = measure(i, j, enough);
+    const CoreGap gap = measure(i, j, {limits.touch, enough, false});
     least = std::min(least, gap.lower);
-    if (gap.lower <= 0.0 || (gap.upper < best.upper && gap.lower <= enough)) best = gap;
+    if (gap.lower <= 0.0 || (gap.upper < best.upper && gap.lower <= enough)) {
+      best = gap;
+      best_i = i;
+      best_j = j;
+    }
     return best.lower <= 0.0 ? -1.0 : std::min(up_to, best.upper);
   };
   search.run(up_to, visit, isFarther);
+  if (best.lower > limits.touch && best.upper < kInfinity && best.normal.isZero())
+    best = measure(best_i, best_j, limits);
   best.lower = std::min(best.lower, least);
   return best;
 }
 
 template <class Meter>
-void allMeetings(BoxSearch search, const Meter& measure, double reach, const MeshTree::Met& met) {
+void allMeetings(BoxSearch search, const Meter& measure, const GapLimits& limits, const MeshTree::Met& met) {
+  const double reach = limits.enough;
   const auto visit = [&](std::size_t i, std::size_t j) {
-    const CoreGap gap = measure(i, j, reach);
+    const CoreGap gap = measure(i, j, limits);
     return gap.lower > reach || met(gap) ? reach : -1.0;
   };
   search.run(reach, visit, neverFarther);
@@ -158,26 +168,28 @@ void MeshTree::makeHulls() const {
   });
 }
 
-CoreGap MeshTree::gapTo(const ConvexSolid& solid, const Pose& mesh_from_solid, double up_to) const {
+CoreGap MeshTree::gapTo(const ConvexSolid& solid, const Pose& mesh_from_solid, const GapLimits& limits) const {
   return leastGap(BoxSearch(boxes_, solid.box(), mesh_from_solid), CoreMeter{triangles_, solid.core(), mesh_from_solid},
-                  up_to, neverFarther);
+                  limits, neverFarther);
 }
 
-CoreGap MeshTree::gapTo(const MeshTree& other, const Pose& mesh_from_other, double up_to) const {
+CoreGap MeshTree::gapTo(const MeshTree& other, const Pose& mesh_from_other, const GapLimits& limits) const {
   return leastGap(BoxSearch(boxes_, other.boxes_, mesh_from_other),
-                  TriangleMeter(triangles_, boxes_, other.triangles_, other.boxes_, mesh_from_other), up_to,
+                  TriangleMeter(triangles_, boxes_, other.triangles_, other.boxes_, mesh_from_other), limits,
                   HullsAreFarther(known_hulls_.load(std::memory_order_acquire),
                                   other.known_hulls_.load(std::memory_order_acquire), mesh_from_other));
 }
 
-void MeshTree::meetings(const ConvexSolid& solid, const Pose& mesh_from_solid, double reach, const Met& met) const {
+void MeshTree::meetings(const ConvexSolid& solid, const Pose& mesh_from_solid, const GapLimits& limits,
+                        const Met& met) const {
   allMeetings(BoxSearch(boxes_, solid.box(), mesh_from_solid), CoreMeter{triangles_, solid.core(), mesh_from_solid},
-              reach, met);
+              limits, met);
 }
 
-void MeshTree::meetings(const MeshTree& other, const Pose& mesh_from_other, double reach, const Met& met) const {
+void MeshTree::meetings(const MeshTree& other, const Pose& mesh_from_other, const GapLimits& limits,
+                        const Met& met) const {
   allMeetings(BoxSearch(boxes_, other.boxes_, mesh_from_other),
-              TriangleMeter(triangles_, boxes_, other.triangles_, other.boxes_, mesh_from_other), reach, met);
+              TriangleMeter(triangles_, boxes_, other.triangles_, other.boxes_, mesh_from_other), limits, met);
 }
 
 }  // namespace hgrid

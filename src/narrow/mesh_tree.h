@@ -36,18 +36,19 @@ class MeshTree {
   static constexpr std::size_t kMostTriangles = 4096;  ///< of a mesh that has hulls
 
   /// Returns the gap between the triangles and the core of a convex solid, with points in the frame of the mesh. It is
-  /// infinite if it is larger than `up_to` [m].
-  CoreGap gapTo(const ConvexSolid& solid, const Pose& mesh_from_solid, double up_to) const;
+  /// infinite if it is larger than GapLimits::enough.
+  CoreGap gapTo(const ConvexSolid& solid, const Pose& mesh_from_solid, const GapLimits& limits) const;
   /// Returns the gap between the triangles of two meshes, in the same way.
-  CoreGap gapTo(const MeshTree& other, const Pose& mesh_from_other, double up_to) const;
+  CoreGap gapTo(const MeshTree& other, const Pose& mesh_from_other, const GapLimits& limits) const;
 
   /// Receives the gap of two parts, in the frame of this mesh. @returns whether the search should continue
   using Met = std::function<bool(const CoreGap&)>;
-  /// Calls `met` for each triangle that is within `reach` [m] of the core of the solid, until a call returns false.
-  void meetings(const ConvexSolid& solid, const Pose& mesh_from_solid, double reach, const Met& met) const;
-  /// Calls `met` for each triangle of this mesh and each triangle of the other mesh that are within `reach` [m] of each
-  /// other, until a call returns false.
-  void meetings(const MeshTree& other, const Pose& mesh_from_other, double reach, const Met& met) const;
+  /// Calls `met` for each triangle that is within GapLimits::enough of the core of the solid, until a call returns
+  /// false.
+  void meetings(const ConvexSolid& solid, const Pose& mesh_from_solid, const GapLimits& limits, const Met& met) const;
+  /// Calls `met` for each triangle of this mesh and each triangle of the other mesh that are within GapLimits::enough
+  /// of each other, until a call returns false.
+  void meetings(const MeshTree& other, const Pose& mesh_from_other, const GapLimits& limits, const Met& met) const;
 
  private:
   std::vector<Triangle> triangles_;

@@ -134,25 +134,40 @@ void tryInside(const Prepared& triangle, const Prepared& other, const Best& best
   }
 }
 
+/// Returns the width of the space between two triangles along a unit vector [m]; negative if they overlap there.
+double thicknessBetween(const Triangle& first, const Triangle& second, const Vector& along) {
+  const auto height = [&](const Triangle& triangle, std::size_t i) { return along.dot(triangle[i]); };
+  return std::min({height(second, 0), height(second, 1), height(second, 2)}) -
+         std::max({height(first, 0), height(first, 1), height(first, 2)});
+}
+
 }  // namespace
 
-CoreGap gapOfTriangles(const Triangle& first, const Triangle& second, double size, double enough) {
+CoreGap gapOfTriangles(const Triangle& first, const Triangle& second, double size, const GapLimits& limits) {
   const Prepared a(first), b(second);
   const double rounding = kTriangleRounding * size;
   CoreGap gap;
   gap.lower = gap.upper = kInfinity;
   const double of_heights = rounding * size * size;
-  if (isBeyondPlane(a, second, enough, of_heights) || isBeyondPlane(b, first, enough, of_heights)) return gap;
+  if (isBeyondPlane(a, second, limits.enough, of_heights) || isBeyondPlane(b, first, limits.enough, of_heights)) {
+    return gap;
+  }
   Best best;
-  if (!tryEdges(a, b, enough, rounding * size, best)) {
+  const bool is_proved = tryEdges(a, b, limits.enough, rounding * size, best);
+  if (!is_proved) {
     tryInside(a, b, best, [&](const Vector& on_a, const Vector& on_b) { best.offer(on_a, on_b); });
     tryInside(b, a, best, [&](const Vector& on_b, const Vector& on_a) { best.offer(on_a, on_b); });
   }
-  gap.lower = gap.upper = std::sqrt(best.squared);
-  if (gap.upper <= rounding) gap.lower = 0.0;
+  gap.upper = std::sqrt(best.squared);
+  if (!(gap.upper < kInfinity)) return gap;
   gap.on_first = best.points.on_first;
   gap.on_second = best.points.on_second;
-  return gap;
+  gap.lower = std::max(0.0, gap.upper - rounding);
+  if (gap.upper > 0.0) gap.normal = gap.apart_along = (gap.on_second - gap.on_first) / gap.upper;
+  if (gap.upper <= rounding) return gap;  // they cross or touch
+  const bool is_clear = gap.lower > limits.touch || gap.upper <= limits.touch;
+  if (is_clear && (is_proved || thicknessBetween(first, second, gap.normal) >= gap.upper - rounding)) return gap;
+  return gapOf(ConvexCore::hull(first.data(), 3), ConvexCore::hull(second.data(), 3), Pose::Identity(), limits);
 }
 
 }  // namespace hgrid

@@ -18,11 +18,10 @@ using Triangle = std::array<Eigen::Vector3d, 3>;
 /// inside the other triangle. The function tries these cases. It ends early if the nearest points of two edges prove
 /// the distance (Larsen, Gottschalk, Lin, Manocha 1999, "Fast Proximity Queries with Swept Sphere Volumes").
 ///
-/// The distance is that of two points of the triangles, so it is never too small. It is too large by at most a few
-/// units of rounding of the coordinates.
+/// Both bounds are proved: the upper one by two points of the triangles, the lower one by a plane between them. Where
+/// doubles do not suffice for this, as for needles that cross at a small angle, gapOf() computes the gap.
 /// @param size  [m] no corner is farther from the origin or from another corner than this
-/// @param enough  [m] the function also ends if the distance is proved to be at least this; the result is then infinite
-/// @returns a gap with equal bounds; the lower bound is 0 if the triangles cross or touch
-CoreGap gapOfTriangles(const Triangle& first, const Triangle& second, double size, double enough);
+/// @returns a gap as that of gapOf(); infinite if the distance is proved to be at least GapLimits::enough
+CoreGap gapOfTriangles(const Triangle& first, const Triangle& second, double size, const GapLimits& limits);
 
 }  // namespace hgrid

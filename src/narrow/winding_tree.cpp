@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "geometry/arc_tangent.h"
+
 namespace hgrid {
 namespace {
 
@@ -40,7 +42,7 @@ void cancel(std::vector<CountedEdge>& edges) {
 double halfAngle(const Vector& point, const Vector& first, const Vector& second, const Vector& third) {
   const Vector a = first - point, b = second - point, c = third - point;
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  return arcTangent(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
 constexpr double kGrazes = 1e-12;  // a line this close to an edge, as a share of the lengths, may be on either side

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "node/node_parts.h"
 
 namespace hgrid {
@@ -12,7 +12,7 @@ namespace hgrid {
 ProximityNode::ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                              std::shared_ptr<NarrowPhase> narrow_phase)
     : parts_(std::make_unique<NodeParts>(node, private_node,
-                                         narrow_phase ? std::move(narrow_phase) : makeFclNarrowPhase())) {}
+                                         narrow_phase ? std::move(narrow_phase) : makeCoreNarrowPhase())) {}
 
 ProximityNode::~ProximityNode() = default;
 

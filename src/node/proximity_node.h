@@ -15,7 +15,7 @@ class NodeParts;
 /// includes this file need not compile the parts of the node.
 class ProximityNode {
  public:
-  /// @param narrow_phase  measures exact distances; FCL if null
+  /// @param narrow_phase  measures exact distances; makeCoreNarrowPhase() if null
   /// @throws std::invalid_argument with a message that lists every wrong parameter
   ProximityNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                 std::shared_ptr<NarrowPhase> narrow_phase = nullptr);

@@ -18,9 +18,6 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-// [m] A sphere of this radius replaces a point when the depth in a hull is measured.
-constexpr double kTinyRadius = 1e-4;
-
 /// What is nearest to a point.
 struct Nearest {
   double distance = kInfinity;                              // [m] negative inside
@@ -55,10 +52,7 @@ Vector directionTo(const Vector& from, const Vector& to) {
 class PointMeter {
  public:
   PointMeter(const Snapshot& snapshot, NarrowPhase& narrow_phase, const QueryScope& scope)
-      : snapshot_(snapshot),
-        narrow_phase_(narrow_phase),
-        point_(narrow_phase.point()),
-        tiny_sphere_(narrow_phase.solidOf(Shape::sphere(kTinyRadius))) {
+      : snapshot_(snapshot), narrow_phase_(narrow_phase), point_(narrow_phase.point()) {
     const std::size_t count = snapshot.structure().bodies.size();
     in_scope_.reserve(count);
     for (std::uint32_t body = 0; body < count; ++body) in_scope_.push_back(inScope(snapshot, scope, body));
@@ -97,7 +91,7 @@ class PointMeter {
   }
 
   /// Measures one shape. If the narrow phase returns no depth for a point inside the shape: primitives use formulas,
-  /// hulls measure a tiny sphere, and meshes search their surface.
+  /// hulls measure the contact, and meshes search their surface.
   void measure(const Vector& point, ProxyId proxy, double limit, double deepest, Nearest& nearest) const {
     const Structure& structure = snapshot_.structure();
     const std::uint32_t body = structure.body_of_proxy[proxy];
@@ -120,9 +114,8 @@ class PointMeter {
     } else if (const auto inner = depthInside(shape.shape, world_from_shape.inverse() * point)) {
       nearest.take(0.0 - inner->depth - shape.padding, world_from_shape.linear() * inner->outward);
     } else if (shape.shape.kind() == ShapeKind::hull) {
-      found = narrow_phase_.measure({*tiny_sphere_, world_from_point, 0.0}, solid, 0.0);
-      nearest.take(std::isnan(found.depth) ? 0.0 - shape.padding : std::min(0.0, kTinyRadius - found.depth),
-                   -found.normal);
+      const Contact contact = narrow_phase_.measureContact({*point_, world_from_point, 0.0}, solid);
+      nearest.take(std::isnan(contact.depth) ? 0.0 - shape.padding : 0.0 - contact.depth, -contact.normal);
     } else {
       found = narrow_phase_.measure({*point_, world_from_point, 0.0}, solid, deepest);
       const double unknown = found.status == Measure::contained ? -deepest : 0.0 - shape.padding;

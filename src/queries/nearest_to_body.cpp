@@ -85,7 +85,8 @@ class NearestToBody final : public Question {
   /// Returns a probe that measures one shape of the asking body against other shapes. The shape must have a solid.
   Probe probe(ProxyId own, const NarrowPhase& narrow_phase) const {
     const BodyShape& shape = shapeOf(own);
-    return {narrow_phase, *shape.solid, snapshot.poses()[from_].world_from_body * shape.body_from_shape, shape.padding};
+    return {narrow_phase, *shape.solid, snapshot.poses()[from_].world_from_body * shape.body_from_shape, shape.padding,
+            true};
   }
   Eigen::AlignedBox3d boxIn(const PlacedMap& map, ProxyId own) const {
     return boxInMap(map.map_from_world, boxOf(own), origin());

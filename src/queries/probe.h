@@ -6,6 +6,7 @@
 
 #include "hgrid_proximity/narrow/narrow_phase.h"
 #include "hgrid_proximity/world/snapshot.h"
+#include "narrow/measured_contact.h"
 
 namespace hgrid {
 
@@ -15,6 +16,8 @@ struct Probe {
   const Solid& solid;
   Pose world_from_solid;
   double padding = 0.0;  // [m] how much the solid is grown
+  bool describes =
+      false;  // whether results of solids that overlap have depth, normal and points, see describeOverlap()
 
   /// Measures this solid against the shape of a proxy. This solid is the first of the two in the result. Returns
   /// Measure::not_measured if the shape of the proxy has no solid.
@@ -28,7 +31,10 @@ struct Probe {
   }
   /// Measures this solid against another solid. This solid is the first of the two in the result.
   Proximity measure(const Solid& other, const Pose& world_from_other, double other_padding, double up_to) const {
-    return narrow_phase.measure({solid, world_from_solid, padding}, {other, world_from_other, other_padding}, up_to);
+    const PlacedSolid first{solid, world_from_solid, padding}, second{other, world_from_other, other_padding};
+    Proximity found = narrow_phase.measure(first, second, up_to);
+    if (describes) describeOverlap(narrow_phase, first, second, found);
+    return found;
   }
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/rotation.h"
 #include "hgrid_proximity/geometry/float_environment.h"
 #include "hgrid_proximity/queries/query.h"
 #include "queries/question.h"
@@ -19,7 +20,7 @@ Pose poseAlong(const Segment& segment) {
   Pose pose = Pose::Identity();
   const Eigen::Vector3d step = segment.to - segment.from;
   pose.translation() = segment.from + 0.5 * step;
-  pose.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), step).toRotationMatrix();
+  pose.linear() = rotationAlong(step);
   return pose;
 }
 

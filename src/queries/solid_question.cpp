@@ -63,6 +63,9 @@ class SolidQuestion final : public Question {
   /// Returns a box around the solid grown by `by` [m], relative to the origin of the snapshot.
   Aabb boxAround(double by) const { return hgrid::boxOf(shape_, world_from_shape_, padding_ + by, origin()); }
   Probe probe(const NarrowPhase& narrow_phase) const { return {narrow_phase, *solid_, world_from_shape_, padding_}; }
+  Probe describing(const NarrowPhase& narrow_phase) const {
+    return {narrow_phase, *solid_, world_from_shape_, padding_, true};
+  }
   /// Returns the box of a proxy in the world frame.
   OrientedBox worldBoxOf(ProxyId proxy) const {
     const Eigen::AlignedBox3d box = inDouble(boxOf(proxy));
@@ -112,7 +115,7 @@ bool SolidQuestion::hitsBox(ProxyId proxy, QueryHit& hit) const {
 }
 
 bool SolidQuestion::hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHit& hit) const {
-  const Proximity found = probe(exact).measure(snapshot, proxy, slack_);
+  const Proximity found = describing(exact).measure(snapshot, proxy, slack_);
   if (found.status == Measure::not_measured) return true;
   if (!(found.distance <= slack_)) return false;
   const Probe center{exact, *exact.point(), Pose(Eigen::Translation3d(center_))};
@@ -141,6 +144,9 @@ bool SolidQuestion::hitsMap(const PlacedMap& map, QueryHit& hit) const {
   });
   if (!met) return false;
   hit = map.hitOf(met->voxel, center, met->distance, isExact());
+  if (!box_) {
+    contact = describing(narrow_phase_).measure(map.solidOf(met->voxel), map.worldFromCube(met->voxel), 0.0, slack_);
+  }
   contact.depth = depthIn({map.worldFromCube(met->voxel), Eigen::Vector3d::Constant(hit.cell_edge)}, contact);
   setDistance(hit, contact);
   if (isExact()) hit.status = Measure::contact;

@@ -6,7 +6,7 @@
 
 #include <map>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "hgrid_proximity/queries/query.h"
 #include "test/support/scenes.h"
 #include "test/support/worlds.h"
@@ -88,7 +88,7 @@ class ExactQueries : public ::testing::Test {
     }
   }
 
-  std::shared_ptr<NarrowPhase> phase_ = makeFclNarrowPhase();
+  std::shared_ptr<NarrowPhase> phase_ = makeCoreNarrowPhase();
   Scene scene_{SceneOptions{}};
   std::shared_ptr<const Snapshot> snapshot_;
 };
@@ -149,6 +149,27 @@ TEST_F(ExactQueries, ARayMeetsABoxWhereItsFaceIs) {
   EXPECT_NEAR(answer.hits[0].along, expected, 1e-6);
   EXPECT_LT((answer.hits[0].point - Eigen::Vector3d(expected, 0.1, 0.2)).norm(), 1e-6);
   EXPECT_LT((answer.hits[0].normal - Eigen::Vector3d(-std::sqrt(0.5), std::sqrt(0.5), 0.0)).norm(), 1e-3);
+}
+
+/// Claim: an exact segment never loses a touch, also if it points almost straight down.
+TEST_F(ExactQueries, SegmentsInAllDirectionsTouchWhatIsAtTheirEnd) {
+  Body ball = test::obstacle("ball");
+  ball.shapes.push_back(test::shapeOf(Shape::sphere(0.1)));
+  const BodyId id = add(ball, at(0.0));
+  test::Random random(31);
+  for (int i = 0; i < 2000; ++i) {
+    const double tilt = random.logUniform(1e-9, 1e-3), turn = random.uniform(-3.2, 3.2),
+                 length = random.chance(0.5) ? 1 : 100;
+    const Eigen::Vector3d down(std::cos(turn) * std::sin(tilt), std::sin(turn) * std::sin(tilt), -std::cos(tilt));
+    const Segment segment{Eigen::Vector3d::Zero(), length * down, 0.0};
+    const Eigen::Vector3d aside = down.unitOrthogonal();
+    // The end of the segment is 1e-6 of its length deep in the ball.
+    Pose pose = at(0.0);
+    pose.translation() = segment.to + (0.1 - 1e-6 * length) * (random.chance(0.5) ? down : aside);
+    scene_.place(id, pose, Time{i + 1});
+    snapshot_ = scene_.commit(Time{i + 1}, {});
+    ASSERT_EQ(query(*snapshot_, segment, exactly()).hits.size(), 1u) << "tilted by " << tilt << " rad";
+  }
 }
 
 TEST_F(ExactQueries, BoxesFindExactlyTheShapesTheyTouch) {

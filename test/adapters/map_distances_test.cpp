@@ -4,7 +4,7 @@
 // Compares exact distances between bodies and maps with measurements of all cells.
 #include <gtest/gtest.h>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "hgrid_proximity/distances/pair_meter.h"
 #include "hgrid_proximity/queries/query.h"
 #include "test/support/maps.h"
@@ -73,7 +73,7 @@ class MapDistances : public ::testing::TestWithParam<unsigned> {
   }
 
   Random random_;
-  std::shared_ptr<NarrowPhase> narrow_phase_ = makeFclNarrowPhase();
+  std::shared_ptr<NarrowPhase> narrow_phase_ = makeCoreNarrowPhase();
   Scene scene_{options()};
   std::map<std::string, BodyId> ids_;
   std::map<std::string, std::vector<Voxel>> voxels_;
@@ -149,7 +149,7 @@ TEST_P(MapDistances, FromTickToTickEqualNewMeasurements) {
 // A bar rotates about the origin of the map and comes nearer to a cell, although the position of the bar stays the
 // same.
 TEST(MapDistancesOfABar, ThatTurnsTowardsACellAreMeasuredAgain) {
-  const std::shared_ptr<NarrowPhase> narrow_phase = makeFclNarrowPhase();
+  const std::shared_ptr<NarrowPhase> narrow_phase = makeCoreNarrowPhase();
   SceneOptions options;
   options.margin = 0.5;
   Scene scene(options);
@@ -214,7 +214,7 @@ TEST_P(MapDistances, OfExactQueriesAreThoseOfTheNearestCells) {
 
 // A box query must be CLEAR exactly if the box is inside the extent of the map and touches no unknown cell.
 TEST(UnmappedBoxes, AreThoseOfAScanOfAllUnknownCells) {
-  const auto narrow_phase = makeFclNarrowPhase();
+  const auto narrow_phase = makeCoreNarrowPhase();
   std::size_t clear = 0, unknown_space = 0;
   for (unsigned seed = 1; seed <= 12; ++seed) {
     Random random(seed);

@@ -12,7 +12,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "hgrid_proximity/adapters/srdf.h"
 #include "hgrid_proximity/distances/pair_meter.h"
 #include "test/support/robots.h"
@@ -85,7 +85,7 @@ std::string answersOf(const std::vector<Place>& places) {
   SceneOptions options;
   options.margin = kNear;
   Scene scene(options);
-  const std::shared_ptr<NarrowPhase> narrow_phase = makeFclNarrowPhase();
+  const std::shared_ptr<NarrowPhase> narrow_phase = makeCoreNarrowPhase();
   PairMeter meter(narrow_phase, {kNear, 0.0, 1});
   std::vector<std::unique_ptr<PlacedRobot>> robots;
   for (const Place& place : places) {

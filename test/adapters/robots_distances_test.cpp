@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <map>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "hgrid_proximity/adapters/srdf.h"
 #include "hgrid_proximity/distances/pair_meter.h"
 #include "test/adapters/fcl_tree.h"
@@ -135,7 +135,7 @@ class Trial {
     largest_error = std::max(largest_error, std::abs(proximity.distance - expected));
   }
 
-  std::shared_ptr<NarrowPhase> narrow_phase_ = makeFclNarrowPhase();
+  std::shared_ptr<NarrowPhase> narrow_phase_ = makeCoreNarrowPhase();
   Scene scene_;
   PairMeter meter_;
   std::vector<std::pair<std::uint32_t, BodyId>> links_;

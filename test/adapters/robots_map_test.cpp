@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "hgrid_proximity/adapters/octomap.h"
 #include "hgrid_proximity/distances/pair_meter.h"
 #include "test/support/robots.h"
@@ -146,7 +146,7 @@ class RobotInBuilding {
   }
 
   Octomap octomap_;
-  std::shared_ptr<NarrowPhase> narrow_phase_ = makeFclNarrowPhase();
+  std::shared_ptr<NarrowPhase> narrow_phase_ = makeCoreNarrowPhase();
   Scene scene_;
   std::string urdf_;
   RobotModel model_;

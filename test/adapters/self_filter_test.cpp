@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "test/support/maps.h"
 #include "test/support/solids.h"
 
@@ -14,7 +14,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-constexpr double kEdge = 0.05;
+constexpr double kCellEdge = 0.05;
 
 /// Splits voxels into cells of the finest level, in Morton order.
 std::vector<Voxel> finestOf(const std::vector<Voxel>& voxels) {
@@ -31,7 +31,7 @@ SelfShape selfShape(NarrowPhase& narrow_phase, const Shape& shape, const Pose& w
 }
 
 TEST(SelfFilter, LeavesOutExactlyTheFinestCellsWhoseMiddlesLieInAPaddedShape) {
-  const auto narrow_phase = makeFclNarrowPhase();
+  const auto narrow_phase = makeCoreNarrowPhase();
   std::size_t left_out = 0, kept = 0, split = 0;
   for (unsigned seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -45,8 +45,8 @@ TEST(SelfFilter, LeavesOutExactlyTheFinestCellsWhoseMiddlesLieInAPaddedShape) {
       const double padding = random.chance(0.3) ? 0.0 : random.uniform(0.0, 0.1);
       shapes.push_back(selfShape(*narrow_phase, shape, world_from_map * randomPose(random, 0.5), padding));
     }
-    const OthersCells others = withoutSelf(voxels, kEdge, world_from_map, shapes, *narrow_phase);
-    StaticGrid(kEdge, others.voxels);  // throws if the voxels are not disjoint or not in Morton order
+    const OthersCells others = withoutSelf(voxels, kCellEdge, world_from_map, shapes, *narrow_phase);
+    StaticGrid(kCellEdge, others.voxels);  // throws if the voxels are not disjoint or not in Morton order
     EXPECT_EQ(others.undecided, 0u);
     const std::vector<Voxel> left = finestOf(others.voxels), all = finestOf(voxels);
     EXPECT_EQ(left.size() + others.left_out, all.size());
@@ -55,7 +55,7 @@ TEST(SelfFilter, LeavesOutExactlyTheFinestCellsWhoseMiddlesLieInAPaddedShape) {
       const bool stays = next != left.end() && *next == cell;
       next += stays;
       const Pose middle =
-          world_from_map * Eigen::Translation3d(0.5 * (minCorner(cell, kEdge) + maxCorner(cell, kEdge)));
+          world_from_map * Eigen::Translation3d(0.5 * (minCorner(cell, kCellEdge) + maxCorner(cell, kCellEdge)));
       double room = 1.0;  // [m] distance of the cell's center from the nearest padded shape
       for (const SelfShape& shape : shapes) {
         const Proximity found = narrow_phase->measure({*narrow_phase->point(), middle, 0.0},
@@ -77,21 +77,21 @@ TEST(SelfFilter, LeavesOutExactlyTheFinestCellsWhoseMiddlesLieInAPaddedShape) {
 }
 
 TEST(SelfFilter, ACellThatStaysWholeIsNotSplit) {
-  const auto narrow_phase = makeFclNarrowPhase();
+  const auto narrow_phase = makeCoreNarrowPhase();
   const std::vector<Voxel> voxels{{32768, 32768, 32768, 3}};  // covers 0 .. 0.4 m on each axis
   Pose beside = Pose::Identity();
   beside.translation() = Eigen::Vector3d(-0.2, 0.2, 0.2);
   // The sphere overlaps the voxel, but contains no center of a finest cell.
   const SelfShape ball = selfShape(*narrow_phase, Shape::sphere(0.21), beside, 0.0);
-  EXPECT_EQ(withoutSelf(voxels, kEdge, Pose::Identity(), {ball}, *narrow_phase).voxels, voxels);
+  EXPECT_EQ(withoutSelf(voxels, kCellEdge, Pose::Identity(), {ball}, *narrow_phase).voxels, voxels);
 }
 
 TEST(SelfFilter, WithoutShapesOrCellsNothingChanges) {
-  const auto narrow_phase = makeFclNarrowPhase();
+  const auto narrow_phase = makeCoreNarrowPhase();
   const std::vector<Voxel> voxels{{1, 2, 3, 0}};
-  EXPECT_EQ(withoutSelf(voxels, kEdge, Pose::Identity(), {}, *narrow_phase).voxels, voxels);
+  EXPECT_EQ(withoutSelf(voxels, kCellEdge, Pose::Identity(), {}, *narrow_phase).voxels, voxels);
   const SelfShape ball = selfShape(*narrow_phase, Shape::sphere(1.0), Pose::Identity(), 0.0);
-  EXPECT_TRUE(withoutSelf({}, kEdge, Pose::Identity(), {ball}, *narrow_phase).voxels.empty());
+  EXPECT_TRUE(withoutSelf({}, kCellEdge, Pose::Identity(), {ball}, *narrow_phase).voxels.empty());
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include <map>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "hgrid_proximity/queries/query.h"
 #include "test/support/maps.h"
 #include "test/support/refusals.h"
@@ -66,7 +66,7 @@ class ShapeQueries : public ::testing::Test {
     return least;
   }
 
-  std::shared_ptr<NarrowPhase> phase_ = makeFclNarrowPhase();
+  std::shared_ptr<NarrowPhase> phase_ = makeCoreNarrowPhase();
   Scene scene_{SceneOptions{}};
   std::vector<Voxel> voxels_;
   std::shared_ptr<const Snapshot> snapshot_;
@@ -186,10 +186,11 @@ TEST_F(ShapeQueries, OfBoxesHaveTheDepthOfTheBoxOrCellThatIsNamed) {
         ASSERT_FALSE(separates(0.999 * hit.depth * randomVector(random, -1, 1).normalized()))
             << "a move shorter than the depth separates the boxes";
       }
-      const Proximity by_fcl = measure({Shape::box(box.size), box.world_from_box}, Shape::box(target.sizes()),
-                                       Pose(Eigen::Translation3d(target.center())), 0.0);
-      if (!std::isfinite(by_fcl.depth)) continue;
-      ASSERT_LE(hit.depth, by_fcl.depth + 1e-5) << "FCL knows a shorter move that separates the boxes";
+      const auto first = phase_->block(box.size), second = phase_->block(target.sizes());
+      const Pose of_target(Eigen::Translation3d(target.center()));
+      const Contact contact = phase_->measureContact({*first, box.world_from_box, 0.0}, {*second, of_target, 0.0});
+      ASSERT_NEAR(hit.depth, contact.depth, 1e-9);
+      ASSERT_NEAR(hit.depth, contact.depth_at_least, 1e-9);
       ++deep;
     }
   }

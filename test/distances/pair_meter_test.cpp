@@ -9,6 +9,7 @@
 #include <new>
 #include <thread>
 
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "test/support/random.h"
 #include "test/support/scenes.h"
 
@@ -49,12 +50,13 @@ class BallPhase final : public NarrowPhase {
     Proximity result;
     if (fails) {
       result.status = Measure::failed;
-      result.distance = 0.0;
+      result.distance = result.lower_bound = 0.0;
       return result;
     }
     result.distance = std::max(0.0, way.norm() - around);
     result.status = result.distance > 0.0 ? Measure::apart : Measure::contact;
     if (result.distance > up_to) result.distance = std::numeric_limits<double>::infinity();
+    result.lower_bound = result.distance;
     return result;
   }
 
@@ -498,6 +500,37 @@ TEST_F(PairMeterTest, AnExceptionOfAnotherThreadReachesTheCaller) {
     EXPECT_THROW(measure(meter, 1), std::bad_alloc);
     phase_->throws_beside = std::thread::id();
     EXPECT_EQ(measure(meter, 2)->pairs.size(), 39u);
+  }
+}
+
+/// Claim: a flat box just above a floor stays in the list, however large both are.
+TEST(PairMeter, LargeBodiesThatAlmostTouchAreListedInEachTick) {
+  const std::shared_ptr<NarrowPhase> phase = makeCoreNarrowPhase();
+  for (const double size : {1.0, 100.0, 1000.0}) {
+    for (int turn = 0; turn < 20; ++turn) {
+      SceneOptions options;
+      options.margin = 0.2;
+      Scene scene(options);
+      const auto add = [&](const char* name, const Eigen::Vector3d& sides) {
+        Body body = test::obstacle(name, Mobility::moving);
+        body.max_speed = 1.0;
+        body.shapes.push_back(test::shapeOf(Shape::box(sides)));
+        body.shapes.front().solid = phase->solidOf(body.shapes.front().shape);
+        return scene.add(body);
+      };
+      const BodyId floor = add("floor", {size, size, 0.2}), plate = add("plate", {0.4 * size, 0.3 * size, 0.1});
+      Pose of_plate = Pose::Identity();
+      of_plate.linear() = Eigen::AngleAxisd(0.0157 * turn, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      PairMeter meter(phase, MeterOptions{});
+      for (int tick = 0; tick < 20; ++tick) {
+        of_plate.translation() << 0.1 * size + 1e-9 * (tick % 7), 0.05 * size, 0.05 + 1.2e-6;
+        scene.place(floor, Pose(Eigen::Translation3d(0.0, 0.0, -0.1)), Time{1 + tick});
+        scene.place(plate, of_plate, Time{1 + tick});
+        const auto found = meter.measure(*scene.commit(Time{1 + tick}, {}));
+        ASSERT_EQ(found->pairs.size(), 1u) << "size " << size << ", turn " << turn << ", tick " << tick;
+        ASSERT_NEAR(found->pairs[0].proximity.distance, 1.2e-6, 1e-9 + 1e-12 * size);
+      }
+    }
   }
 }
 

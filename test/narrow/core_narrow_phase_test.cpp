@@ -44,26 +44,8 @@ TEST(CoreNarrowPhase, KnowsNoDepthOfCoresThatOverlap) {
   EXPECT_TRUE(boxes.normal.hasNaN());
 }
 
-std::optional<Overlap> throwFault(const ConvexSolid&, const ConvexSolid&, const Pose&) {
-  throw std::runtime_error("a fault of the solver");
-}
-
-/// Claim: a pair on which the solver throws counts as contact. A list of its contacts is never just empty, because that
+/// Claim: a pair that cannot be measured counts as contact. A list of its contacts is never just empty, because that
 /// would mean that there are none.
-TEST(CoreNarrowPhase, AFaultOfTheSolverIsAContactAndNoListOfContactsIsReturned) {
-  const CoreNarrowPhase faulty(throwFault);
-  const ConvexSolid box(Shape::box({1, 1, 1}));
-  const Pose here = Pose::Identity(), there = at(0.75, 0, 0), far = at(9, 0, 0);
-  const Proximity measured = faulty.measure({box, here, 0.0}, {box, there, 0.0}, 10.0);
-  EXPECT_EQ(measured.status, Measure::failed);
-  EXPECT_TRUE(isContact(measured.status));
-  EXPECT_EQ(measured.distance, 0.0);
-  EXPECT_THROW(faulty.contacts({box, here, 0.0}, {box, there, 0.0}, 5), std::runtime_error);
-  EXPECT_EQ(faulty.measure({box, here, 0.0}, {box, far, 0.0}, 10.0).status, Measure::apart);
-  EXPECT_TRUE(faulty.contacts({box, here, 0.0}, {box, far, 0.0}, 5).empty());
-}
-
-/// Claim: the same holds if the solver does not throw, but knows no answer.
 TEST(CoreNarrowPhase, AMeasurementThatFailsHasNoListOfContacts) {
   const auto narrow_phase = makeCoreNarrowPhase();
   const auto box = narrow_phase->solidOf(Shape::box({1, 1, 1}));
@@ -76,8 +58,8 @@ TEST(CoreNarrowPhase, AMeasurementThatFailsHasNoListOfContacts) {
   }
 }
 
-// Claim: if the search ends while the bounds of the gap still differ, the distance is computed from the lower bound.
-TEST(ConvexPair, HasTheProvedDistanceIfTheSearchEndedEarly) {
+/// Claim: if the bounds of a gap differ, the upper one is the distance, and the lower one decides about contact.
+TEST(ConvexPair, UsesTheLowerBoundForWhatMustBeCertain) {
   const ConvexSolid ball(Shape::sphere(0.1));
   const Pose here = Pose::Identity(), there(Eigen::Translation3d(1.0, 0.0, 0.0));
   const Side a({ball, here, 0.0}), b({ball, there, 0.0});
@@ -85,14 +67,20 @@ TEST(ConvexPair, HasTheProvedDistanceIfTheSearchEndedEarly) {
   gap.lower = 0.5;
   gap.upper = 1.0;
   gap.on_second = there.translation();
-  const Proximity early = answerByGap(a, b, there, gap, 0.6);
+  gap.normal = gap.apart_along = Eigen::Vector3d::UnitX();
+  const Proximity early = answerByGap(a, b, there, gap, 1.0);
   EXPECT_EQ(early.status, Measure::apart);
-  EXPECT_DOUBLE_EQ(early.distance, 0.3);
-  EXPECT_TRUE(std::isinf(answerByGap(a, b, there, gap, 0.2).distance));
-  gap.lower = gap.upper;
-  EXPECT_DOUBLE_EQ(answerByGap(a, b, there, gap, 1.0).distance, 0.8);
+  EXPECT_DOUBLE_EQ(early.distance, 0.8);
+  EXPECT_DOUBLE_EQ(early.lower_bound, 0.3);
+  const Proximity on_either_side = answerByGap(a, b, there, gap, 0.6);
+  EXPECT_TRUE(std::isinf(on_either_side.distance));
+  EXPECT_DOUBLE_EQ(on_either_side.lower_bound, 0.3);
+  EXPECT_TRUE(std::isinf(answerByGap(a, b, there, gap, 0.2).lower_bound));
   gap.lower = 0.1;
   EXPECT_EQ(answerByGap(a, b, there, gap, 1.0).status, Measure::contact);
+  gap.lower = 0.5;
+  gap.normal.setZero();
+  EXPECT_TRUE(answerByGap(a, b, there, gap, 1.0).normal.hasNaN()) << "a normal that is not known";
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ struct TestedMesh {
   /// Returns the distance from the mesh and the space that it encloses.
   double distanceOf(const Eigen::Vector3d& point) const {
     const ConvexSolid solid(ConvexCore::point(), {});
-    return isInside(point) ? 0.0 : prepared.tree.gapTo(solid, Pose(Eigen::Translation3d(point)), 1e9).upper;
+    return isInside(point) ? 0.0 : prepared.tree.gapTo(solid, Pose(Eigen::Translation3d(point)), {0.0, 1e9}).upper;
   }
   Eigen::Vector3d randomPoint(Random& random, double beyond) const {
     const Eigen::Vector3d share = randomVector(random, -beyond, 1.0 + beyond);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "hgrid_proximity/refusal.h"
 
 namespace hgrid {
@@ -35,9 +36,14 @@ bool sameBits(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 }  // namespace
 
+NarrowPhase& narrowPhase() {
+  static const std::shared_ptr<NarrowPhase> shared = makeCoreNarrowPhase();
+  return *shared;
+}
+
 std::vector<ShapeKind> testedKinds() {
   std::vector<ShapeKind> kinds;
-  for (int kind = 1; kind <= (testsMeshes() ? 7 : 6); ++kind) kinds.push_back(ShapeKind(kind));
+  for (int kind = 1; kind <= 7; ++kind) kinds.push_back(ShapeKind(kind));
   return kinds;
 }
 
@@ -101,6 +107,16 @@ Trial::Trial(const Case& placed)
 Proximity Trial::measure(double up_to) const {
   return narrowPhase().measure({*first_, placed_.world_from_first, placed_.first_padding},
                                {*second_, placed_.world_from_second, placed_.second_padding}, up_to);
+}
+
+Contact Trial::contact() const {
+  return narrowPhase().measureContact({*first_, placed_.world_from_first, placed_.first_padding},
+                                      {*second_, placed_.world_from_second, placed_.second_padding});
+}
+
+Contact Trial::contactSwapped() const {
+  return narrowPhase().measureContact({*second_, placed_.world_from_second, placed_.second_padding},
+                                      {*first_, placed_.world_from_first, placed_.first_padding});
 }
 
 Proximity Trial::measureSwapped(double up_to) const {

@@ -16,7 +16,7 @@ namespace test {
 struct KindPair {
   ShapeKind first, second;
 };
-/// Returns the shape kinds that are tested: all seven, or all except meshes if testsMeshes() is false.
+/// Returns the shape kinds that are tested: all seven, without the plane.
 std::vector<ShapeKind> testedKinds();
 /// Returns all pairs of testedKinds(), also of a kind with itself: 28 pairs for seven kinds.
 std::vector<KindPair> allKindPairs();
@@ -67,17 +67,17 @@ class Trial {
   Proximity measure(double up_to = std::numeric_limits<double>::infinity()) const;
   /// Measures with the two shapes exchanged.
   Proximity measureSwapped(double up_to = std::numeric_limits<double>::infinity()) const;
+  Contact contact() const;
+  /// Describes the contact with the two shapes exchanged.
+  Contact contactSwapped() const;
 
  private:
   const Case& placed_;
   std::shared_ptr<const Solid> first_, second_;
 };
 
-/// Returns the narrow phase under test. The same tests are built twice. One build links test/narrow/tested_core.cpp,
-/// the other test/adapters/tested_fcl.cpp; each of these files defines these two functions.
+/// Returns the narrow phase under test.
 NarrowPhase& narrowPhase();
-/// Returns whether meshes are tested too. The core measures them for every narrow phase, so one build is enough.
-bool testsMeshes();
 
 /// Returns the answer with its first and second point exchanged and its normal reversed.
 Proximity swapped(Proximity answer);

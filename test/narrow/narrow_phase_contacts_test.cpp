@@ -58,39 +58,40 @@ TEST_P(Contacts, AreWhereThereIsContactAndLieInBoth) {
   EXPECT_GT(in_both.count(), 20u) << "too few contacts for a meaningful test";
 }
 
-Contact contactOf(const Case& placed, bool exchanged = false) {
-  const auto first = narrowPhase().solidOf(placed.first_shape), second = narrowPhase().solidOf(placed.second_shape);
-  const PlacedSolid a{*first, placed.world_from_first, placed.first_padding};
-  const PlacedSolid b{*second, placed.world_from_second, placed.second_padding};
-  return exchanged ? narrowPhase().measureContact(b, a) : narrowPhase().measureContact(a, b);
-}
-
 TEST_P(Contacts, OfWholeShapesHaveAPointInBothAndADepthThatSeparatesThem) {
   Cases cases(43, GetParam());
   Claim in_both("the contact point lies in both padded shapes", 1e-6);
   Claim unit("the normal is a unit vector", 1e-9);
   Claim free("moving the second shape by the depth along the normal separates the shapes", 0.0);
+  Claim not_sooner("a move by less than the lower bound of the depth does not separate the shapes", 0.0);
   Claim same_order("both orders of the shapes give the same contact", 0.0);
-  Claim as_measured("depth and normal are those of measure(), if it knows them", 0.0);
+  Claim as_measured("depth and normal are those of measure(), if it knows them", 2e-6);
   for (int i = 0; i < 100; ++i) {
     const Case placed = cases.next();
-    const Proximity answer = Trial(placed).measure();
+    const Trial trial(placed);
+    const Proximity answer = trial.measure();
     if (!isContact(answer.status)) continue;
-    const Contact contact = contactOf(placed), other = contactOf(placed, true);
+    const Contact contact = trial.contact(), other = trial.contactSwapped();
     same_order.hold(contact.point == other.point && contact.normal == -other.normal && contact.depth == other.depth,
                     placed);
     in_both.hold(
         std::max(distanceOf(placed.first(), contact.point).lower, distanceOf(placed.second(), contact.point).lower),
         placed);
     unit.hold(std::abs(contact.normal.norm() - 1.0), placed);
-    as_measured.hold(std::isnan(answer.depth) || (answer.depth == contact.depth && answer.normal == contact.normal),
-                     placed);
+    if (!std::isnan(answer.depth)) {
+      as_measured.hold(std::max(std::abs(answer.depth - contact.depth), (answer.normal - contact.normal).norm()),
+                       placed);
+    }
     Case freed = placed;
     freed.world_from_second.translation() += (contact.depth + 1e-5) * contact.normal;
     const SolidDistance apart = distanceOf(freed.first(), freed.second());
     free.hold(contact.depth >= 0.0 && apart.interval.lower > 0.0, placed);
+    if (!(contact.depth_at_least > 1e-5)) continue;
+    Case nearly = placed;
+    nearly.world_from_second.translation() += (contact.depth_at_least - 1e-5) * contact.normal;
+    not_sooner.hold(distanceOf(nearly.first(), nearly.second()).interval.lower, placed);
   }
-  for (const Claim* claim : {&in_both, &unit, &free, &same_order, &as_measured}) claim->expectHeld();
+  for (const Claim* claim : {&in_both, &unit, &free, &not_sooner, &same_order, &as_measured}) claim->expectHeld();
   EXPECT_GT(in_both.count(), 5u) << "too few contacts for a meaningful test";
 }
 

@@ -97,13 +97,13 @@ TEST(NarrowPhaseKnown, ThingsThatStandOnATableHaveANormal) {
     for (const Shape& thing : {Shape::box({0.2, 0.2, 0.2}), Shape::cylinder(0.2, 0.1), Shape::cone(0.2, 0.1)}) {
       const Case placed{table, thing, Pose::Identity(), at(x, 0.1, 0.15), 0.0, 0.0};
       SCOPED_TRACE(placed.text());
-      const Proximity answer = Trial(placed).measure();
-      ASSERT_EQ(answer.status, Measure::contact);
-      EXPECT_NEAR(answer.depth, 0.0, 1e-6);
-      EXPECT_NEAR(answer.normal.z(), 1.0, 1e-3);
-      EXPECT_NEAR(answer.on_first.z(), 0.05, 1e-5);
-      const Proximity other = Trial(placed).measureSwapped();
-      EXPECT_NEAR(other.normal.z(), -1.0, 1e-3);
+      const Trial trial(placed);
+      ASSERT_EQ(trial.measure().status, Measure::contact);
+      const Contact contact = trial.contact();
+      EXPECT_NEAR(contact.depth, 0.0, 1e-9);
+      EXPECT_NEAR(contact.normal.z(), 1.0, 1e-9);
+      EXPECT_NEAR(contact.point.z(), 0.05, 1e-9);
+      EXPECT_NEAR(trial.contactSwapped().normal.z(), -1.0, 1e-9);
     }
   }
 }

@@ -23,11 +23,10 @@ std::vector<std::pair<Shape, Shape>> twins() {
                                                 {Shape::cylinder(0.6, 0.4), Shape::cylinder(0.8, 0.3)},
                                                 {Shape::cone(0.6, 0.4), Shape::cone(0.8, 0.3)},
                                                 {Shape::capsule(0.5, 0.25), Shape::capsule(0.75, 0.125)},
-                                                {hullOf(lump), hullOf(turned)}};
-  if (testsMeshes()) {
-    twins.insert(twins.end(),
-                 {{meshOf(lump), meshOf(turned)}, {meshOf(lump), meshOf(lump)}, {meshOf(lump), meshOf(rolled)}});
-  }
+                                                {hullOf(lump), hullOf(turned)},
+                                                {meshOf(lump), meshOf(turned)},
+                                                {meshOf(lump), meshOf(lump)},
+                                                {meshOf(lump), meshOf(rolled)}};
   return twins;
 }
 

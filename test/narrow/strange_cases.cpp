@@ -72,12 +72,7 @@ Shape strangeShape(Random& random) {
 }
 
 Case strangeCase(Random& random) {
-  const auto measurable = [&] {
-    Shape shape = strangeShape(random);
-    while (shape.kind() == ShapeKind::mesh && !testsMeshes()) shape = strangeShape(random);
-    return shape;
-  };
-  const Shape first = measurable(), second = random.chance(0.1) ? first : measurable();
+  const Shape first = strangeShape(random), second = random.chance(0.1) ? first : strangeShape(random);
   const double reach = first.reach() + second.reach();
   const auto padding = [&] { return random.chance(0.7) ? 0.0 : random.logUniform(1e-6, 0.1); };
   Case strange{first, second, randomPose(random, 1.0), randomPose(random, 1.0), padding(), padding()};

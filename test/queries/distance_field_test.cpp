@@ -47,14 +47,13 @@ Interval coreDistanceOf(const SolidOracle& solid, const Eigen::Vector3d& point) 
   return nearest;
 }
 
-/// Returns bounds of the signed distance [m] of a point from a solid. The depth inside a hull is not known; there it is
-/// minus the padding.
+/// Returns bounds of the signed distance [m] of a point from a solid.
 Interval signedDistanceOf(const SolidOracle& solid, ShapeKind kind, const Eigen::Vector3d& point) {
   const Interval core = coreDistanceOf(solid, point);
   const auto radius = double(solid.radius());
   if (kind == ShapeKind::mesh && solid.encloses(point.cast<Real>()))
     return {-core.upper - radius, -core.lower - radius};
-  if (core.upper > 1e-12 || kind == ShapeKind::hull) return {core.lower - radius, core.upper - radius};
+  if (core.upper > 1e-12) return {core.lower - radius, core.upper - radius};
   const Interval depth = depthOf(solid.pieces().front(), Convex(point));
   return {-depth.upper, -depth.lower};
 }

@@ -19,9 +19,12 @@ namespace hgrid {
 /// - Two solids are always measured in the same order, in the frame of one of them. So the result does not depend on
 ///   the order of the arguments, and no precision is lost far from the origin.
 /// - The distance from a plane is that of the deepest point of the other shape. Depth and normal are always known.
-/// - Otherwise, measure() knows depth, normal and points of a contact if the cores are apart or only touch. If the
-///   cores overlap, these values are NaN. makeFclNarrowPhase() finds these values in more cases.
-/// - measureContact() compares how far both solids extend in a few dozen directions, if measure() knows no depth.
+/// - Otherwise, measure() knows depth, normal and points of a contact if the cores are apart. If they overlap, these
+/// values
+///   are NaN.
+/// - measureContact() proves the depth of convex solids with two bounds (src/narrow/overlap.h). For meshes it compares
+/// how
+///   far both solids extend in a few dozen directions.
 std::shared_ptr<NarrowPhase> makeCoreNarrowPhase();
 
 }  // namespace hgrid

@@ -35,16 +35,21 @@ struct Proximity {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  ///< stands for "not known"
 
   Measure status = Measure::not_measured;  ///< what the measurement found
-  /// [m] 0 in contact; infinite if larger than the `up_to` of measure(). If the solver ended before it converged, this
-  /// is the lower bound that it proved, and the nearest points may be farther apart than `distance`.
+  /// [m] Distance of the two nearest points; 0 in contact; infinite if larger than the `up_to` of measure().
   double distance = kUnknown;
+  /// [m] The distance is at least this: a plane between the two shapes proves it. It is less than `distance` by the
+  /// error of the measurement (doc/guarantees.md), and only where a solver ended early by more. If the distance may be
+  /// on either side of `up_to`, it is infinite and this bound is not.
+  double lower_bound = kUnknown;
   /// [m, world] Nearest point of the first shape; in contact its deepest point.
   Eigen::Vector3d on_first = Eigen::Vector3d::Constant(kUnknown);
   /// [m, world] Nearest point of the second shape; in contact its deepest point.
   Eigen::Vector3d on_second = Eigen::Vector3d::Constant(kUnknown);
   Eigen::Vector3d normal = Eigen::Vector3d::Constant(kUnknown);  ///< unit vector from the first to the second shape
-  /// [m] Penetration depth. Moving the second shape this far along the normal separates the two. Of a point inside a
-  /// closed mesh: its distance from the surface. If parts of the mesh overlap, the point may then still be inside.
+  /// [m] Upper bound of the penetration depth, in contact: moving the second shape this far along the normal separates
+  /// the two. Unknown, as points and normal, if the shapes overlap without their padding and radius; measureContact()
+  /// finds depth and normal then. Of a point inside a closed mesh: its distance from the surface. If parts of the mesh
+  /// overlap, the point may then still be inside.
   double depth = kUnknown;
 };
 
@@ -58,6 +63,9 @@ struct Contact {
   /// [m] Upper bound of the penetration depth, >= 0. Moving the second solid this far along the normal, and 1e-6 m
   /// farther, separates the two. A shorter move in this or another direction may separate them as well.
   double depth = Proximity::kUnknown;
+  /// [m] Lower bound of the penetration depth, >= 0: no shorter move in any direction separates the two. For convex
+  /// solids, it usually equals the upper bound, apart from the error of a measurement. 0 for other solids.
+  double depth_at_least = 0.0;
 };
 
 /// Orders contacts for sorting: the deepest first, contacts of unknown depth last.
@@ -115,8 +123,8 @@ class NarrowPhase {
   /// Describes where two solids are in contact, and how far one must be moved until they are not. Never throws, and
   /// allocates no memory: after an error all values are NaN.
   ///
-  /// The move separates the whole solids, also those of meshes. Its direction is the best of a few dozen. So for solids
-  /// that are not convex, the depth may be much larger than the penetration depth. Exceptions:
+  /// The move separates the whole solids, also those of meshes. For convex solids it is the shortest. For other solids,
+  /// its direction is the best of a few dozen, and it may be much longer than the shortest move. Exceptions:
   /// - Two planes have no point, normal and depth.
   /// - Measure::containment_unknown: the point is one of the solid that may be inside the other.
   /// If the caller exchanges the two solids, the normal changes its sign. All other values stay the same.

@@ -27,6 +27,8 @@ enum class Unknown : std::uint8_t {
   /// Edges only: two shapes come so near to each other that EdgeRequest::tolerance does not suffice to prove that they
   /// stay apart.
   tolerance = 7,
+  /// Edges only: a joint that turns freely turns by half a turn, so that both ways are equally short.
+  half_turn = 8,
 };
 
 /// One body that a query hit. Points and normals are in the world frame. NaN: unknown or not applicable.

@@ -17,7 +17,7 @@ namespace hgrid {
 ///
 /// An angle without limits takes the shorter way around the circle, unless another joint mimics its joint; this
 /// includes the angle of a planar joint. The quaternion of a floating joint turns at constant speed along the shorter
-/// way.
+/// way. If both ways are equally short, to 1e-6 rad, the edge is unknown (Unknown::half_turn).
 struct StateEdge {
   std::uint32_t from = 0;  ///< index of the state where the edge begins
   std::uint32_t to = 0;    ///< index of the state where it ends

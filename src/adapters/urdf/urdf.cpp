@@ -12,6 +12,7 @@
 
 #include "adapters/urdf/urdf_tree.h"
 #include "adapters/urdf/xml.h"
+#include "geometry/rotation.h"
 #include "hgrid_proximity/bodies/name.h"
 
 namespace hgrid {
@@ -46,13 +47,21 @@ std::string printed(const tinyxml2::XMLNode& node) {
   return printer.CStr();
 }
 
-Pose poseOf(const urdf::Pose& pose, const std::string& what) {
-  double x = 0.0, y = 0.0, z = 0.0, w = 1.0;
-  pose.rotation.getQuaternion(x, y, z, w);
-  return checkedPose({pose.position.x, pose.position.y, pose.position.z}, {x, y, z, w}, what);
-}
-
 Eigen::Vector3d vectorOf(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
+
+/// Returns the origin that urdfdom has read from a <joint>, <collision> or <visual>. The rotation is computed anew,
+/// because that of urdfdom depends on the C library: the same URDF would give other poses on another system.
+Pose poseOf(const urdf::Pose& pose, const tinyxml2::XMLElement& element, const std::string& what) {
+  Eigen::Vector4d xyzw;
+  pose.rotation.getQuaternion(xyzw[0], xyzw[1], xyzw[2], xyzw[3]);
+  const tinyxml2::XMLElement* const origin = element.FirstChildElement("origin");
+  if (const char* const rpy = origin == nullptr ? nullptr : origin->Attribute("rpy")) {
+    urdf::Vector3 angles;
+    angles.init(rpy);
+    xyzw = rotationOf(vectorOf(angles)).coeffs();
+  }
+  return checkedPose(vectorOf(pose.position), xyzw, what + ": origin");
+}
 
 /// Returns the XML text of a <collision> that has the origin and the geometry of a <collision> or <visual> element.
 std::string asCollision(const tinyxml2::XMLElement& element) {
@@ -86,9 +95,9 @@ urdf::CollisionSharedPtr parseShape(const tinyxml2::XMLElement& element, const s
   return link->collision_array.front();
 }
 
-BodyShape bodyShapeOf(const urdf::Collision& collision, const std::string& what, const MeshSource& meshes,
-                      const ShapeLimits& limits) {
-  const Pose origin = poseOf(collision.origin, what + ": origin");
+BodyShape bodyShapeOf(const urdf::Collision& collision, const tinyxml2::XMLElement& element, const std::string& what,
+                      const MeshSource& meshes, const ShapeLimits& limits) {
+  const Pose origin = poseOf(collision.origin, element, what);
   checkWithin(origin.translation(), limits.max_size, what + ": origin");
   const urdf::Geometry& geometry = *collision.geometry;
   switch (geometry.type) {
@@ -146,7 +155,7 @@ bool readShapes(const tinyxml2::XMLElement& element, const char* tag, RobotLink&
       if (growFromPoint(*read->geometry, limits)) {
         warnings.push_back(what + " has size 0; it counts as a point of " + text(limits.min_size) + " m");
       }
-      link.shapes.push_back(bodyShapeOf(*read, what, meshes, limits));
+      link.shapes.push_back(bodyShapeOf(*read, *shape, what, meshes, limits));
     } catch (const Refusal& refusal) {
       const std::string sentence = refusal.what();
       link.unreadable.emplace_back(refusal.code(), sentence.rfind(what, 0) == 0 ? sentence : what + ": " + sentence);
@@ -223,7 +232,9 @@ JointKind kindOf(const urdf::Joint& joint) {
   }
 }
 
-RobotLink linkOf(const urdf::Link& source, int parent, const ShapeLimits& limits, std::vector<std::string>& warnings) {
+/// @param joint_element  the <joint> above the link; not read if there is none
+RobotLink linkOf(const urdf::Link& source, const tinyxml2::XMLElement* joint_element, int parent,
+                 const ShapeLimits& limits, std::vector<std::string>& warnings) {
   checkLocal(source.name, "link name");
   RobotLink link;
   link.name = source.name;
@@ -239,7 +250,7 @@ RobotLink linkOf(const urdf::Link& source, int parent, const ShapeLimits& limits
     link.mimic_multiplier = joint.mimic->multiplier;
     link.mimic_offset = joint.mimic->offset;
   }
-  link.parent_from_joint = poseOf(joint.parent_to_joint_origin_transform, what + ": origin");
+  link.parent_from_joint = poseOf(joint.parent_to_joint_origin_transform, *joint_element, what);
   checkWithin(link.parent_from_joint.translation(), limits.max_size, what + ": origin");
   const Eigen::Vector3d axis = vectorOf(joint.axis);
   const bool has_axis = link.joint_kind != JointKind::fixed && link.joint_kind != JointKind::floating;
@@ -286,11 +297,17 @@ RobotModel readUrdf(const std::string& xml, const MeshSource& meshes, const Desc
   model.name = tree->getName();
   std::vector<urdf::LinkConstSharedPtr> open = {tree->getRoot()};
   std::map<std::string, int> index;
+  std::map<std::string, const tinyxml2::XMLElement*> joints;
+  for (auto* element = robot.FirstChildElement("joint"); element != nullptr;
+       element = element->NextSiblingElement("joint")) {
+    joints.emplace(element->Attribute("name"), element);
+  }
   for (std::size_t i = 0; i < open.size(); ++i) {  // breadth first, so parents come before children
     const urdf::LinkConstSharedPtr link = open[i];
     const int parent = link->getParent() ? index.at(link->getParent()->name) : -1;
     index.emplace(link->name, static_cast<int>(i));
-    model.links.push_back(linkOf(*link, parent, shape_limits, model.warnings));
+    const auto* const joint = link->parent_joint ? joints.at(link->parent_joint->name) : nullptr;
+    model.links.push_back(linkOf(*link, joint, parent, shape_limits, model.warnings));
     open.insert(open.end(), link->child_links.begin(), link->child_links.end());
   }
   for (auto* element = robot.FirstChildElement("link"); element != nullptr;

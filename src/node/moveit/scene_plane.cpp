@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "geometry/rotation.h"
 #include "hgrid_proximity/refusal.h"
 #include "node/messages/from_messages.h"
 #include "node/messages/to_messages.h"
@@ -25,7 +26,7 @@ geometry_msgs::Pose poseOf(const shape_msgs::Plane& plane, const geometry_msgs::
   Pose result = fromPose(pose, "the pose of a plane of " + what);
   const Eigen::Vector3d up = normal / length;
   Pose plane_in_pose = Pose::Identity();
-  plane_in_pose.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up).toRotationMatrix();
+  plane_in_pose.linear() = rotationAlong(up);
   plane_in_pose.translation() = -plane.coef[3] / length * up;
   return toPose(result * plane_in_pose);
 }

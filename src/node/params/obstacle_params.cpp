@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "geometry/rotation.h"
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/pairs/pair_rule.h"
 #include "hgrid_proximity/refusal.h"
@@ -202,10 +203,7 @@ Pose readPose(ParamValue value) {
     pose.linear() = readQuaternion(*quaternion).toRotationMatrix();
     return pose;
   }
-  pose.linear() =
-      (Eigen::AngleAxisd(rpy[2], Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(rpy[1], Eigen::Vector3d::UnitY()) *
-       Eigen::AngleAxisd(rpy[0], Eigen::Vector3d::UnitX()))
-          .toRotationMatrix();
+  pose.linear() = rotationOf(rpy).toRotationMatrix();
   return pose;
 }
 

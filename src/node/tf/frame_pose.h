@@ -4,6 +4,7 @@
 
 #include <geometry_msgs/Transform.h>
 
+#include "geometry/rotation.h"
 #include "hgrid_proximity/geometry/pose.h"
 #include "node/wire/transform_view.h"
 
@@ -38,7 +39,7 @@ struct FramePose {
 /// Interpolates between two poses as tf2 does. `fraction` is 0 at `from` and 1 at `to`.
 inline FramePose between(const FramePose& from, const FramePose& to, double fraction) {
   FramePose result;
-  result.rotation = from.rotation.slerp(fraction, to.rotation);
+  result.rotation = between(Eigen::Quaterniond(from.rotation), Eigen::Quaterniond(to.rotation), fraction);
   result.translation = from.translation + fraction * (to.translation - from.translation);
   return result;
 }

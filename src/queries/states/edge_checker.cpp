@@ -47,6 +47,9 @@ std::string StateChecker::sentenceOf(const StateBatch& batch, const EdgeAnswers&
              ", at about " + text(answer.free_until) +
              " of the edge; a smaller tolerance may prove that they stay apart";
     }
+    case Unknown::half_turn:
+      return what + ": joint '" + state_->kinematics.variables()[answer.detail].joint +
+             "' turns by half a turn, so both ways are equally short; give a state between its ends";
     default:
       return state_->doubts[answer.detail].sentence;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/rotation.h"
 #include "queries/states/four_boxes.h"
 
 namespace hgrid {
@@ -20,14 +21,14 @@ constexpr float kCoarse = 0.02f;     // [m] shapes are not measured while they c
 constexpr std::size_t kFewNear = 8;  // if more shapes are near in the middle of a part, the next parts are shorter
 constexpr double kNowhere = 2.0;     // a place behind the end of an edge
 constexpr float kTooFar = -std::numeric_limits<float>::infinity();  // reach of shapes that cannot meet
+constexpr double kSameWay =
+    1e-6;  // [rad] if two ways around the circle differ by less than twice this, either may be taken
 constexpr double kShortest = 1e-12;  // parts of an edge that are this short are not divided
 
 /// Interpolates between two unit quaternions at constant speed, along the way on which `difference` leads.
 Eigen::Vector4d turned(const Eigen::Vector4d& from, const Eigen::Vector4d& difference, double at) {
   const Eigen::Vector4d begin = from.normalized(), end = (from + difference).normalized();
-  const double angle = 2.0 * std::asin(std::min(1.0, 0.5 * (end - begin).norm()));
-  if (angle < 1e-9) return begin + at * (end - begin);
-  return (std::sin((1.0 - at) * angle) * begin + std::sin(at * angle) * end) / std::sin(angle);
+  return between(Eigen::Quaterniond(begin), Eigen::Quaterniond(end), at).coeffs();
 }
 
 /// Adds the slack to a reach [m]. Shapes that do not move against each other have none: one state decides.
@@ -106,7 +107,7 @@ void EdgeSearch::finishAll() {
   }
 }
 
-/// Gives a lane the next edge that is not refused. Returns whether there is one.
+/// Gives a lane the next edge that can be examined. Returns whether there is one.
 bool EdgeSearch::begin(std::size_t lane) {
   EdgeInWork& work = memory_.edges[lane];
   work.active = false;
@@ -131,7 +132,7 @@ bool EdgeSearch::begin(std::size_t lane) {
   return false;
 }
 
-/// Reads both ends of an edge. Returns false if the edge is refused.
+/// Reads both ends of an edge. Returns false if the edge is refused, or if its way is not known.
 bool EdgeSearch::read(std::size_t edge, std::size_t lane) {
   values_.restoreOthers(lane);  // place() writes all variables, also the rest of a quaternion of which a part is given
   if (!readEnd(edge, edges_[edge].from, lane)) return false;
@@ -141,15 +142,24 @@ bool EdgeSearch::read(std::size_t edge, std::size_t lane) {
   for (std::size_t i = 0; i < variables.size(); ++i) {
     const double from = memory_.from[i][lane], to = memory_.values[i][lane];
     memory_.difference[i].set(lane, all_.wraps[i] ? std::remainder(to - from, 2.0 * M_PI) : to - from);
+    if (all_.wraps[i] && std::abs(memory_.difference[i][lane]) >= M_PI - kSameWay) return turnsHalf(edge, i);
     if (variables[i].quaternion < 0 || variables[i].quaternion + 3 != static_cast<int>(i)) continue;
     double cosine = 0.0;
     for (std::size_t k = i - 3; k <= i; ++k) cosine += memory_.from[k][lane] * memory_.values[k][lane];
+    if (std::abs(cosine) <= 0.5 * kSameWay) return turnsHalf(edge, i);
     if (cosine >= 0.0) continue;  // otherwise the way to the opposite quaternion is shorter; it is the same rotation
     for (std::size_t k = i - 3; k <= i; ++k) {
       memory_.difference[k].set(lane, -memory_.values[k][lane] - memory_.from[k][lane]);
     }
   }
   return true;
+}
+
+/// Notes that a variable turns by half a turn on an edge. A controller may take either way. Returns false.
+bool EdgeSearch::turnsHalf(std::size_t edge, std::size_t variable) {
+  answers_.edges[edge].because = Unknown::half_turn;
+  answers_.edges[edge].detail = static_cast<std::uint32_t>(variable);
+  return false;
 }
 
 /// Reads the state at one end of an edge. Returns false if the edge is refused because of it.

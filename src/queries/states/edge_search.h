@@ -26,6 +26,7 @@ class EdgeSearch {
   void finishAll();
   bool begin(std::size_t lane);
   bool read(std::size_t edge, std::size_t lane);
+  bool turnsHalf(std::size_t edge, std::size_t variable);
   bool readEnd(std::size_t edge, std::uint32_t state, std::size_t lane);
   void choosePart(EdgeInWork& work) const;
   bool isDone(EdgeInWork& work) const;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/arc_tangent.h"
+
 namespace hgrid {
 namespace {
 
@@ -47,8 +49,8 @@ Eigen::Vector3d turnedBy(const FourPoses& pose, const Eigen::Vector3d& vector, s
 /// Returns the angle between two unit quaternions, as rotations [rad].
 double angleBetween(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
   const Eigen::Vector4d first = a.normalized(), second = b.normalized();
-  const double apart = std::min((first - second).norm(), (first + second).norm());
-  return 4.0 * std::asin(std::min(1.0, 0.5 * apart));
+  const double difference = (first - second).norm(), sum = (first + second).norm();
+  return 4.0 * arcTangent(std::min(difference, sum), std::max(difference, sum));
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ SphereCover coverOf(const TiltedBox<float>& box) {
   const double longest = box.half[order[0]], middle = box.half[order[1]], shortest = box.half[order[2]];
   SphereCover cover{{order[0], order[1]}, {1, 1}, {0.0f, 0.0f}, box.half[order[0]], box.half[order[0]]};
   if (box.is_ball) return cover;
-  cover.whole = roundedUp(std::hypot(longest, middle, shortest));
+  cover.whole = roundedUp(std::sqrt(longest * longest + middle * middle + shortest * shortest));
   const double spacing = std::max({shortest, longest / kMostAlong, std::sqrt(longest * middle / kMostSpheres), 1e-6});
   double half[2] = {longest, middle};
   for (int i = 0; i < 2; ++i) {
@@ -30,7 +30,7 @@ SphereCover coverOf(const TiltedBox<float>& box) {
     half[i] /= cover.count[i];
     cover.step[i] = static_cast<float>(2.0 * half[i]);
   }
-  cover.radius = roundedUp(std::hypot(half[0], half[1], shortest) * (1.0 + 1e-6));
+  cover.radius = roundedUp(std::sqrt(half[0] * half[0] + half[1] * half[1] + shortest * shortest) * (1.0 + 1e-6));
   return cover;
 }
 

@@ -49,7 +49,7 @@ bool comesNear(const RobotInState& robot, std::uint32_t body, double reach) {
     for (std::size_t i = 0; i < robot.robot.counting(); ++i) {
       if (robot.allowed(i, body) || !overlap(grown_box, robot.boundsOf(i))) continue;
       const Proximity found = robot.measureBody(i, body, structure.shapeOf(proxy), reach);
-      if (found.status == Measure::not_measured || found.distance <= reach) return true;
+      if (found.status == Measure::not_measured || found.lower_bound <= reach) return true;
     }
   }
   return false;

@@ -271,7 +271,7 @@ void StateSearch::consider(std::size_t lane, const NearShapes& near) {
   if (near.gap < 0.0f && goal_ == SearchGoal::contact && haveSpheresInCommon(lane, near)) {
     StatePair pair = pairOf(near);
     pair.proximity.status = Measure::contact;
-    pair.proximity.distance = 0.0;
+    pair.proximity.distance = pair.proximity.lower_bound = 0.0;
     take(lane, near, pair, otherOf(lane, near), 0.0);
   } else {
     scratch_.near[lane].push_back(near);
@@ -410,7 +410,8 @@ TouchingSolids::Placed StateSearch::otherOf(std::size_t lane, const NearShapes& 
 void StateSearch::take(std::size_t lane, const NearShapes& near, const StatePair& pair,
                        const TouchingSolids::Placed& other, double limit) {
   const bool measured = pair.proximity.status != Measure::not_measured;
-  const double distance = measured ? pair.proximity.distance : std::max(0.0, static_cast<double>(near.gap));
+  const double found = goal_ == SearchGoal::all_near ? pair.proximity.lower_bound : pair.proximity.distance,
+               distance = measured ? found : std::max(0.0, static_cast<double>(near.gap));
   const bool is_first = near_pair_[lane].first == Structure::kNone;
   if (isContact(pair.proximity.status) || distance <= 0.0) {
     const BodyShape& own = *robot_.shapes()[near.own].what;

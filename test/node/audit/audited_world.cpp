@@ -7,7 +7,7 @@
 #include <boost/make_shared.hpp>
 #include <cmath>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "test/support/bodies.h"
 
 namespace hgrid {
@@ -159,7 +159,7 @@ const Tick& AuditedWorld::step() {
 }
 
 AuditCase AuditedWorld::audited() {
-  static const std::shared_ptr<NarrowPhase> narrow_phase = makeFclNarrowPhase();
+  static const std::shared_ptr<NarrowPhase> narrow_phase = makeCoreNarrowPhase();
   return caseOf(world_.last(), record_.content(), 7, *narrow_phase);
 }
 

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "hgrid_proximity/distances/pair_meter.h"
 #include "src/node/messages/distances_messages.h"
 #include "src/node/messages/events_messages.h"
@@ -50,7 +50,7 @@ class ContactMessages : public ::testing::Test {
     expectContact(*events_, isInBoth, normal, depth);
   }
 
-  std::shared_ptr<NarrowPhase> narrow_phase_ = makeFclNarrowPhase();
+  std::shared_ptr<NarrowPhase> narrow_phase_ = makeCoreNarrowPhase();
   Scene scene_{SceneOptions{}};
   boost::shared_ptr<msg::Distances> distances_;
   boost::shared_ptr<msg::Events> events_;

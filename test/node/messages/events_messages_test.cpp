@@ -8,7 +8,7 @@
 #include <hgrid_proximity/EventKind.h>
 #include <hgrid_proximity/RuleOrigin.h>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "test/node/support/readings.h"
 #include "test/support/events.h"
 #include "test/support/random.h"
@@ -63,7 +63,7 @@ void expectWellFormed(const msg::Events& message, std::size_t most) {
 TEST(EventsMessages, ContainAllEventsOfTheSnapshotInAsManyMessagesAsNeeded) {
   constexpr std::size_t kMost = 3;
   std::size_t split = 0, none = 0;
-  const std::shared_ptr<NarrowPhase> narrow_phase = makeFclNarrowPhase();
+  const std::shared_ptr<NarrowPhase> narrow_phase = makeCoreNarrowPhase();
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
@@ -106,7 +106,7 @@ TEST(EventsMessages, ContainAllEventsOfTheSnapshotInAsManyMessagesAsNeeded) {
 }
 
 TEST(EventsMessages, SayWhichRuleDecidesAboutThePair) {
-  const std::shared_ptr<NarrowPhase> narrow_phase = makeFclNarrowPhase();
+  const std::shared_ptr<NarrowPhase> narrow_phase = makeCoreNarrowPhase();
   Scene scene{SceneOptions{}};
   scene.place(scene.add(solidBall(*narrow_phase, "a")), at(0.0), Time{1});
   scene.place(scene.add(solidBall(*narrow_phase, "b")), at(0.5), Time{1});
@@ -133,7 +133,7 @@ TEST(EventsMessages, SayWhichRuleDecidesAboutThePair) {
 }
 
 TEST(EventsMessages, AreNoneWhileThereIsNoWorld) {
-  EXPECT_TRUE(eventsMessages(Tick(), msg::WorldState(), Params(), *makeFclNarrowPhase()).empty());
+  EXPECT_TRUE(eventsMessages(Tick(), msg::WorldState(), Params(), *makeCoreNarrowPhase()).empty());
 }
 
 }  // namespace

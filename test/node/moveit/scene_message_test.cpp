@@ -28,7 +28,7 @@ ReceivedScene received(SceneTopic topic, const std::string& md5, const std::stri
 
 class SceneMessage : public ::testing::Test {
  protected:
-  SceneMessage() : phase_(makeFclNarrowPhase()), reader_(params_, *phase_) {
+  SceneMessage() : phase_(makeCoreNarrowPhase()), reader_(params_, *phase_) {
     held_.link_name = "hand";
     held_.object = sceneSphere(CollisionObjectFields::ADD, "held", 1, "hand");
     scene_.is_diff = true;

@@ -4,7 +4,7 @@
 #include <hgrid_proximity/LifetimeEnd.h>
 #include <hgrid_proximity/ShapeKind.h>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "src/node/messages/obstacle_messages.h"
 #include "src/node/params/params.h"
 #include "src/node/world/world.h"
@@ -115,7 +115,7 @@ std::string refusalOf(const Value& obstacle) {
 }
 
 TEST(ObstacleParams, GiveTheSameObstacleAsARequest) {
-  const std::shared_ptr<NarrowPhase> phase = makeFclNarrowPhase();
+  const std::shared_ptr<NarrowPhase> phase = makeCoreNarrowPhase();
   Ledger ledger;
   const Params with_obstacle = paramsWith(list({rich()})), without = paramsWith(list());
   World configured(settingsOf(with_obstacle), false, 1, ledger, phase),
@@ -147,7 +147,7 @@ TEST(ObstacleParams, GiveTheSameObstacleAsARequest) {
 }
 
 TEST(ObstacleParams, ConfiguredObstaclesEnd) {
-  const std::shared_ptr<NarrowPhase> phase = makeFclNarrowPhase();
+  const std::shared_ptr<NarrowPhase> phase = makeCoreNarrowPhase();
   Ledger ledger;
   const Params params = paramsWith(
       list({with(ball("brief", 0, 0, 0, 1), {{"lifetime", 0.5}}),

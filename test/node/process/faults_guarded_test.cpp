@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "src/node/services/guarded.h"
 #include "src/node/tick/tick_jobs.h"
 #include "src/node/world/world.h"
@@ -81,7 +81,7 @@ TEST(Guarded, StillCountsWhereThereIsNoMemoryForAReport) {
 struct JobsOfTick {
   Params params;
   Ledger ledger;
-  World world{settingsOf(params), false, 1, ledger, makeFclNarrowPhase()};
+  World world{settingsOf(params), false, 1, ledger, makeCoreNarrowPhase()};
   TickJobs jobs;
   std::string done;
 

@@ -18,7 +18,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "src/node/proximity_node.h"
 
 namespace {
@@ -108,7 +108,7 @@ class FaultyPhase final : public NarrowPhase {
   }
   const int alive_before_ = g_threads_alive;
   mutable std::atomic<int> hanging_{0};
-  std::shared_ptr<NarrowPhase> sound_ = makeFclNarrowPhase();
+  std::shared_ptr<NarrowPhase> sound_ = makeCoreNarrowPhase();
 };
 
 }  // namespace

@@ -93,7 +93,7 @@ PlacedObstacle randomObstacle(Random& random, int number) {
 }
 
 TEST(StoredItems, AnObstacleIsReadAsItWasWritten) {
-  const auto phase = makeFclNarrowPhase();
+  const auto phase = makeCoreNarrowPhase();
   Random random(1);
   for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE(i);
@@ -116,7 +116,7 @@ TEST(StoredItems, AnObstacleIsReadAsItWasWritten) {
 }
 
 TEST(StoredItems, TheLifetimeOfARuleGoesOnWhileTheNodeDoesNotRun) {
-  const auto phase = makeFclNarrowPhase();
+  const auto phase = makeCoreNarrowPhase();
   PairRule forever{"obstacle/a", "robot/*", "grip"}, short_one{"obstacle/b", "robot/*", "held"};
   forever.origin = short_one.origin = Origin::service;
   forever.set_by = "/me";
@@ -147,7 +147,7 @@ TEST(StoredItems, TheLifetimeOfARuleGoesOnWhileTheNodeDoesNotRun) {
 }
 
 TEST(StoredItems, AMapIsReadAsItWasWritten) {
-  const auto phase = makeFclNarrowPhase();
+  const auto phase = makeCoreNarrowPhase();
   Random random(2);
   MapParams map;
   map.name = "hall";
@@ -165,7 +165,7 @@ TEST(StoredItems, AMapIsReadAsItWasWritten) {
 }
 
 TEST(StoredItems, RobotsKeepTheirDescriptionsFramesAndAbsence) {
-  const auto phase = makeFclNarrowPhase();
+  const auto phase = makeCoreNarrowPhase();
   const auto text = std::make_shared<const RobotDescription>(RobotDescription{"<robot %\n\"ä\"/>", "<robot/>"});
   StoredRobot told, like, named;
   told.spec.params = {"told", "", "", ""};
@@ -215,7 +215,7 @@ TEST_F(Obstacles, AMapThatAnEarlierRunLoadedIsMissedUntilItIsReadAgainAndARemove
 }
 
 TEST(StoredItems, AnItemThatCannotBeReadIsATrouble) {
-  const auto phase = makeFclNarrowPhase();
+  const auto phase = makeCoreNarrowPhase();
   const StoredWorld stored = storedWorldOf({{"obstacle obstacle/a", "nonsense\n"}}, *phase, kClocks);
   EXPECT_TRUE(stored.obstacles.empty());
   EXPECT_EQ(stored.troubles, std::vector<std::string>({"line 1 of the stored obstacle obstacle/a is not valid: it "
@@ -223,7 +223,7 @@ TEST(StoredItems, AnItemThatCannotBeReadIsATrouble) {
 }
 
 TEST(StoredItems, RulesAreReadTogetherOrNotAtAll) {
-  const auto phase = makeFclNarrowPhase();
+  const auto phase = makeCoreNarrowPhase();
   StateEdit edit = editOf({{"obstacle/a", "robot/*", "grip"}, {"obstacle/b", "robot/*", "held"}}, kClocks);
   edit.text.resize(edit.text.rfind("rule"));
   const StoredWorld stored = storedWorldOf({{edit.key, edit.text}}, *phase, kClocks);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "hgrid_proximity/queries/query.h"
 #include "test/node/support/settings.h"
 #include "test/node/support/transform_views.h"
@@ -31,7 +31,7 @@ Params withFrames(Params params, const std::vector<std::string>& frames) {
 }
 
 std::shared_ptr<NarrowPhase> narrowPhase() {
-  static const std::shared_ptr<NarrowPhase> narrow_phase = makeFclNarrowPhase();
+  static const std::shared_ptr<NarrowPhase> narrow_phase = makeCoreNarrowPhase();
   return narrow_phase;
 }
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "src/node/world/world.h"
 #include "test/node/support/settings.h"
 
@@ -37,7 +37,7 @@ class Ticking {
  private:
   Params params_;
   Ledger ledger_;
-  World world_{settingsOf(params_), false, 1, ledger_, makeFclNarrowPhase()};
+  World world_{settingsOf(params_), false, 1, ledger_, makeCoreNarrowPhase()};
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };
@@ -92,7 +92,7 @@ TEST(TickJobsRun, NeverDoesARefusedJobLater) {
   jobs.add("a", [&](World&) { ++accepted; });  // the queue keeps its order
   const Params params;
   Ledger ledger;
-  World world(settingsOf(params), false, 1, ledger, makeFclNarrowPhase());
+  World world(settingsOf(params), false, 1, ledger, makeCoreNarrowPhase());
   jobs.doAll(world, ledger);
   EXPECT_EQ(accepted, 1);
   EXPECT_EQ(refused, 0);
@@ -109,7 +109,7 @@ TEST(TickJobsRun, IsNotDoneIfItWasRefusedWhileATickWasAtAnEarlierJob) {
   while (jobs.waiting() < 2) std::this_thread::yield();
   const Params params;
   Ledger ledger;
-  World world(settingsOf(params), false, 1, ledger, makeFclNarrowPhase());
+  World world(settingsOf(params), false, 1, ledger, makeCoreNarrowPhase());
   std::thread tick([&] { jobs.doAll(world, ledger); });
   asking.join();
   refusal_came.set_value();
@@ -133,7 +133,7 @@ TEST(TickJobs, DoNotPileUpWhileNoTickComes) {
   EXPECT_EQ(jobs.waiting(), 2u);
   Params params;
   Ledger ledger;
-  World world(settingsOf(params), false, 1, ledger, makeFclNarrowPhase());
+  World world(settingsOf(params), false, 1, ledger, makeCoreNarrowPhase());
   jobs.doAll(world, ledger);
   EXPECT_EQ(done, "a999 b999 ");
 }
@@ -142,7 +142,7 @@ TEST(TickJobs, DoNotPileUpWhileNoTickComes) {
 TEST(TickJobs, ThatFailAreReplacedByANewerOneOfTheSameKey) {
   Params params;
   Ledger ledger;
-  World world(settingsOf(params), false, 1, ledger, makeFclNarrowPhase());
+  World world(settingsOf(params), false, 1, ledger, makeCoreNarrowPhase());
   TickJobs jobs;
   std::string done;
   jobs.add("a", [](World&) { throw std::runtime_error("a fault"); });
@@ -171,7 +171,7 @@ TEST(TickJobsRun, WaitsForAJobThatHasStartedHoweverLongItTakes) {
 TEST(TickJobs, AreDoneAgainUntilTheySucceed) {
   const Params params;
   Ledger ledger;
-  World world(settingsOf(params), false, 1, ledger, makeFclNarrowPhase());
+  World world(settingsOf(params), false, 1, ledger, makeCoreNarrowPhase());
   TickJobs jobs;
   int tries = 0, others = 0;
   jobs.add("a", [&](World&) {

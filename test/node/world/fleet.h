@@ -81,7 +81,7 @@ class Fleet : public ::testing::Test {
 
   Fleet() : Fleet(params()) {}
   explicit Fleet(const Params& params)
-      : params_(params), phase_(makeFclNarrowPhase()), world_(settingsOf(params_), false, 1, ledger_, phase_) {}
+      : params_(params), phase_(makeCoreNarrowPhase()), world_(settingsOf(params_), false, 1, ledger_, phase_) {}
 
   static Params params() {
     Params value;

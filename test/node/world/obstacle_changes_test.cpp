@@ -303,7 +303,7 @@ TEST(ObstacleChanges, WaitForTheClock) {
   Params params;
   params.world_frame = "world";
   Ledger ledger;
-  World world(settingsOf(params), true, 1, ledger, makeFclNarrowPhase());
+  World world(settingsOf(params), true, 1, ledger, makeCoreNarrowPhase());
   Moment before_clock;
   before_clock.steady = momentAt(0).steady;
   world.tick(before_clock);
@@ -317,7 +317,7 @@ TEST(ObstacleChanges, LeaveNothingBehind) {
   Params params;
   params.world_frame = "world";
   Ledger ledger;
-  const auto phase = makeFclNarrowPhase();
+  const auto phase = makeCoreNarrowPhase();
   World world(settingsOf(params), false, 1, ledger, phase);
   world.tick(momentAt(0));
   const auto resident = [] {

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "src/node/messages/obstacle_messages.h"
 #include "src/node/world/world.h"
 #include "test/node/support/settings.h"
@@ -117,7 +117,7 @@ inline LoadedRobot arm() {
 /// A world with the frame "cart", which moves along x, the configured obstacle "post" at x = 3, and an arm.
 class Obstacles : public ::testing::Test {
  protected:
-  Obstacles() : phase_(makeFclNarrowPhase()), world_(settingsOf(params()), false, 1, ledger_, phase_) {
+  Obstacles() : phase_(makeCoreNarrowPhase()), world_(settingsOf(params()), false, 1, ledger_, phase_) {
     world_.setRobot(std::make_shared<const LoadedRobot>(arm()));
     tick();
   }

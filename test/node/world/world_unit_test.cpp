@@ -10,7 +10,7 @@
 
 #include <functional>
 
-#include "hgrid_proximity/adapters/fcl.h"
+#include "hgrid_proximity/narrow/core_narrow_phase.h"
 #include "src/node/world/world.h"
 #include "test/node/support/settings.h"
 #include "test/node/support/transform_views.h"
@@ -369,7 +369,7 @@ class WorldFailedAllocation : public ::testing::TestWithParam<bool> {
   /// Of how many allocations one fails. An odd number, because even and odd allocations fail in different ways.
   const std::size_t every_ = static_cast<std::size_t>(test::countFromEnvironment("HGRID_TEST_ALLOCATIONS", 1));
   Params params_ = paramsOfTheWorld();
-  std::shared_ptr<NarrowPhase> narrow_phase_ = makeFclNarrowPhase();
+  std::shared_ptr<NarrowPhase> narrow_phase_ = makeCoreNarrowPhase();
   std::vector<Step> steps_ = script();
 };
 
@@ -401,7 +401,7 @@ TEST(WorldMaps, AreAtMostMaxMaps) {
   params.world_frame = "world";
   params.max_maps = 2;
   Ledger ledger;
-  World world(test::settingsOf(params), false, 1, ledger, makeFclNarrowPhase());
+  World world(test::settingsOf(params), false, 1, ledger, makeCoreNarrowPhase());
   world.setMap(mapOf("hall", 0.0, 1));
   world.setMap(mapOf("shelf", 1.0, 2));
   std::string sentence;

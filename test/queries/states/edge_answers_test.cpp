@@ -201,6 +201,25 @@ TEST(EdgeAnswers, AJointWithoutLimitsTakesTheShorterWay) {
   EXPECT_TRUE(limited.edge_answers.edges[0].beyond_limits);
 }
 
+/// Claim: if both ways around are equally short, an edge is unknown, because a controller may take either.
+TEST(EdgeAnswers, AnEdgeOfHalfATurnIsUnknown) {
+  RobotModel model = turningArm();
+  model.links[1].continuous = true;
+  ArmWorld world({}, model);
+  for (const double turn : {2 * kQuarter, -2 * kQuarter, 2 * kQuarter + 5e-7, 2 * kQuarter - 5e-7, 6 * kQuarter}) {
+    SCOPED_TRACE(turn);
+    const EdgeAnswer& answer = world.checkEdge(0.3, 0.3 + turn);
+    EXPECT_EQ(answer.verdict, Verdict::unknown);
+    EXPECT_EQ(answer.because, Unknown::half_turn);
+    EXPECT_EQ(answer.free_until, 0.0);
+    EXPECT_TRUE(says(world.edge_sentence, "edge 0: joint 'arm_joint' turns by half a turn"));
+  }
+  EXPECT_EQ(world.checkEdge(0.3, 0.3 + 2 * kQuarter - 2e-6).verdict, Verdict::clear);
+  model.links[1].continuous = false;
+  model.links[1].lower = model.links[1].upper = 0.0;
+  EXPECT_EQ(ArmWorld({}, model).checkEdge(0.0, 2 * kQuarter).verdict, Verdict::clear) << "this joint counts turns";
+}
+
 /// Claim: only a continuous joint takes the shorter way. The controller of a revolute joint without limits counts
 /// turns.
 TEST(EdgeAnswers, ARevoluteJointWithoutLimitsDoesNotTakeTheShorterWay) {
