@@ -5,11 +5,27 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/double_double.h"
+
 namespace hgrid {
 
+namespace {
+
+/// Returns the cross product of two vectors, to a few units in the last place also if they are almost parallel.
+Eigen::Vector3d preciseCross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  Eigen::Vector3d result;
+  for (int i = 0; i < 3; ++i) {
+    const int k = (i + 1) % 3, m = (i + 2) % 3;
+    result[i] = static_cast<double>(DoubleDouble::product(a[k], b[m]) - DoubleDouble::product(a[m], b[k]));
+  }
+  return result;
+}
+
+}  // namespace
+
 double penetrationDepth(const OrientedBox& first, const OrientedBox& second) {
-  // Squared sine of an angle. Two edges with a smaller angle are parallel, so their cross product gives no direction.
-  constexpr double kParallel = 1e-12;
+  // Squared sine of an angle. The cross product of edges with a smaller angle needs more digits.
+  constexpr double kAlmostParallel = 1e-8;
   const Eigen::Matrix3d a = first.world_from_box.linear(), b = second.world_from_box.linear();
   const Eigen::Vector3d between = second.world_from_box.translation() - first.world_from_box.translation();
   double depth = std::numeric_limits<double>::infinity();
@@ -22,8 +38,10 @@ double penetrationDepth(const OrientedBox& first, const OrientedBox& second) {
     separateAlong(a.col(i));
     separateAlong(b.col(i));
     for (int j = 0; j < 3; ++j) {
-      const Eigen::Vector3d cross = a.col(i).cross(b.col(j));
-      if (cross.squaredNorm() > kParallel) separateAlong(cross.normalized());
+      Eigen::Vector3d cross = a.col(i).cross(b.col(j));
+      if (!(cross.squaredNorm() > kAlmostParallel)) cross = preciseCross(a.col(i), b.col(j));
+      const double length = cross.norm();
+      if (length > 0.0) separateAlong(cross / length);
     }
   }
   return std::max(0.0, depth);
