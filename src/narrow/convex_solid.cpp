@@ -48,8 +48,7 @@ BoxTree boxAround(const ConvexCore& core) {
 
 }  // namespace
 
-ConvexSolid::ConvexSolid(const Shape& shape)
-    : OrderedSolid(shape), core_(coreOf(shape)), box_(boxAround(core_)), is_shape_(true) {
+ConvexSolid::ConvexSolid(const Shape& shape) : OrderedSolid(shape), core_(coreOf(shape)), box_(boxAround(core_)) {
   if (shape.kind() == ShapeKind::hull) some_point_ = shape.mesh()->vertices.front();
 }
 

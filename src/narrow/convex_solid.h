@@ -11,7 +11,7 @@
 namespace hgrid {
 
 /// A convex shape that is prepared for measuring.
-class ConvexSolid : public OrderedSolid {
+class ConvexSolid final : public OrderedSolid {
  public:
   /// @param shape  must not be a mesh or a plane
   explicit ConvexSolid(const Shape& shape);
@@ -23,15 +23,11 @@ class ConvexSolid : public OrderedSolid {
   const BoxTree& box() const { return box_; }
   /// Returns a point of the core, in the frame of the shape [m].
   const Eigen::Vector3d& somePoint() const { return some_point_; }
-  /// Whether it was created from a Shape, not for a query. Nobody reads the details of contacts with query solids, so
-  /// they are not computed.
-  bool isShape() const { return is_shape_; }
 
  private:
   ConvexCore core_;
   BoxTree box_;
   Eigen::Vector3d some_point_ = Eigen::Vector3d::Zero();
-  bool is_shape_ = false;
 };
 
 }  // namespace hgrid

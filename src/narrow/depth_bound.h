@@ -6,13 +6,12 @@
 
 namespace hgrid {
 
-/// Sets depth and normal of the contact of two solids, in the frame of `a`. Neither of the two may be a plane.
+/// Sets depth and normal of the contact of a mesh and another solid, in the frame of `a`. Neither may be a plane.
 ///
 /// In any direction, the two solids are apart after a move that is as long as their extents overlap in this direction.
-/// This holds for all solids, but only for convex solids is the shortest of these moves the penetration depth. The
-/// function tries the axes of the boxes around both solids, the cross products of these axes, which suffice for two
-/// boxes (Ericson 2005, section 4.4.1), the axes of meshes, and the direction between the boxes. It then turns the best
-/// direction in smaller and smaller steps. It tries at most 72 directions.
+/// The function tries the axes of the boxes around both solids, the cross products of these axes, the axes of meshes,
+/// and the direction between the boxes. It then turns the best direction in smaller and smaller steps. It tries at most
+/// 72 directions.
 void boundDepth(const Side& a, const Side& b, Contact& contact);
 
 }  // namespace hgrid

@@ -38,10 +38,10 @@ struct PairDistance {
   std::uint8_t flags = 0;          ///< bits of PairFlags
   Proximity proximity;             ///< how the nearest shapes lie relative to each other
   Contact contact;                 ///< of these two shapes, or of this shape and cell; all NaN if they are apart
-  /// [m] Lower bound of the distance of the pair at the stamp of the snapshot. At the poses, it is the distance if that
-  /// is known for this tick; if not, the larger of two values: `gap`, and the last measured distance minus how far the
-  /// two bodies have moved relative to each other since that measurement. If poses are old, Snapshot::reachBetween() is
-  /// subtracted.
+  /// [m] Lower bound of the distance of the pair at the stamp of the snapshot. At the poses, it is the
+  /// proved lower bound of the distance if that was measured for this tick; if not, the larger of two values: `gap`,
+  /// and the last measured distance minus how far the two bodies have moved relative to each other since that
+  /// measurement. If poses are old, Snapshot::reachBetween() is subtracted.
   double lower_bound = 0.0;
   Time measured{0};                       ///< stamp of the data of the last measurement of this pair; 0: never measured
   std::vector<NearCell> cells;            ///< only in pairs with a map or cloud: its nearest cells, nearest first
