@@ -294,10 +294,7 @@ CoreGap gapOf(const ConvexCore& first, const ConvexCore& second, const Pose& fir
   const bool are_boxes = first.isBox() && second.isBox();
   const double rounding = gapRounding(size), error = kStepRounding * size, noise = kNoise * size;
   const double accepted = std::max(kTolerance, 2.0 * rounding);
-  // The search among the faces of boxes ends at the right face. Then the difference of the bounds is rounding.
-  const auto isStraight = [&](double lower, double upper) {
-    return upper - lower <= (are_boxes ? std::max(kStraight * upper, 2.0 * noise) : kStraight * upper - noise);
-  };
+  const auto isStraight = [&](double lower, double upper) { return upper - lower <= kStraight * upper - noise; };
   // Whether the bounds are accurate, and say whether the gap is larger than `touch`.
   const auto isAccurate = [&](double lower, double upper) {
     const bool is_decided = lower - error > limits.touch || upper + error <= limits.touch;

@@ -34,7 +34,7 @@ class ConvexCore {
   Eigen::Matrix<Real, 3, 1> supportIn(const Eigen::Matrix<Real, 3, 1>& direction) const;
   /// Returns an upper bound [m] of the distance from the origin to the points of the set.
   double reach() const { return reach_; }
-  /// Whether it is a point, a segment or a box: then no two faces have almost the same direction.
+  /// Whether it is a point, a segment or a box: among few faces, a search with more digits takes few steps.
   bool isBox() const { return kind_ == Kind::box; }
 
  private:
@@ -53,7 +53,7 @@ struct CoreGap {
   double lower = 0.0;  ///< proved lower bound of the distance; 0: the cores may meet
   double upper = std::numeric_limits<double>::infinity();  ///< distance of the points: proved upper bound, but rounded
   Eigen::Vector3d on_first = Eigen::Vector3d::Zero(), on_second = Eigen::Vector3d::Zero();
-  /// Unit vector from the first point to the second; 0 if it is not known to 1e-6 rad.
+  /// Unit vector from the first point to the second; 0 if it is not known to 1e-6 rad and gapRounding() / upper.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   /// Unit vector along which the cores are apart by `lower`. If the bounds are equal, it is the normal.
   Eigen::Vector3d apart_along = Eigen::Vector3d::Zero();
