@@ -46,7 +46,8 @@ bool hasContacts(Measure status) {
 std::optional<Proximity> answerByReach(const Side& a, const Side& b, const Pose& a_from_b, double up_to) {
   const double around = a.around + b.around;
   if (!a_from_b.matrix().allFinite() || !(around >= 0.0)) return answerOf(Measure::failed, 0.0);
-  if (a_from_b.translation().norm() - (a.solid.reach() + b.solid.reach()) - around > up_to) {
+  const double way = a_from_b.translation().norm(), reach = a.solid.reach() + b.solid.reach() + around;
+  if (way - reach - gapRounding(way + reach) > up_to) {
     return answerOf(Measure::apart, kInfinity);
   }
   return std::nullopt;

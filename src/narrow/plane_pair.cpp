@@ -51,27 +51,35 @@ Contact contactAt(const Side& plane, const Side& other, const Vector& point) {
 }  // namespace
 
 Proximity measurePlane(const Side& plane, const Side& other, double up_to) {
-  const Pose plane_from_other = plane.world_from_shape.inverse() * other.world_from_shape;
+  const Pose plane_from_other = relativePose(plane, other);
   const double around = plane.around + other.around;
   if (!plane_from_other.matrix().allFinite() || !(around >= 0.0)) return answerOf(Measure::failed, 0.0);
   if (other.solid.kind() == ShapeKind::plane) return answerOf(Measure::contact, 0.0);
-  if (plane_from_other.translation().z() - other.solid.reach() - around > up_to) {
-    return answerOf(Measure::apart, std::numeric_limits<double>::infinity());
+  const double size = other.solid.reach() + plane_from_other.translation().norm() + around;
+  const double rounding = gapRounding(size), infinity = std::numeric_limits<double>::infinity();
+  if (plane_from_other.translation().z() - other.solid.reach() - around - rounding > up_to) {
+    return answerOf(Measure::apart, infinity);
   }
   const Vector point = lowestPoint(other.solid, plane_from_other);
-  const double distance = point.z() - around;
-  if (distance > up_to) return answerOf(Measure::apart, std::numeric_limits<double>::infinity());
-  Proximity result = answerOf(distance > 0.0 ? Measure::apart : Measure::contact, std::max(0.0, distance));
+  const double distance = point.z() - around, lower = distance - rounding;
+  if (lower > up_to) return answerOf(Measure::apart, infinity);
+  Proximity result = answerOf(Measure::contact, 0.0);
+  if (lower > 0.0) {
+    result = answerOf(Measure::apart, distance > up_to ? infinity : distance);
+    result.lower_bound = lower;
+    if (distance > up_to) return result;  // by less than the error of the measurement
+  } else {
+    result.depth = -lower;
+  }
   result.normal = Vector::UnitZ();
   result.on_first = {point.x(), point.y(), plane.around};
   result.on_second = {point.x(), point.y(), point.z() - other.around};
-  if (!(distance > 0.0)) result.depth = 0.0 - distance;
   return result;
 }
 
 Contact contactOfPlane(const Side& plane, const Side& other) {
   if (other.solid.kind() == ShapeKind::plane) return {};
-  return contactAt(plane, other, lowestPoint(other.solid, plane.world_from_shape.inverse() * other.world_from_shape));
+  return contactAt(plane, other, lowestPoint(other.solid, relativePose(plane, other)));
 }
 
 std::vector<Contact> contactsOfPlane(const Side& plane, const Side& other, std::size_t most) {
@@ -79,7 +87,7 @@ std::vector<Contact> contactsOfPlane(const Side& plane, const Side& other, std::
   if (found.status == Measure::failed) hasContacts(found.status);  // throws
   if (!(found.distance <= kTouchingGap)) return {};
   if (other.solid.kind() == ShapeKind::plane) return {Contact{}};
-  const Pose plane_from_other = plane.world_from_shape.inverse() * other.world_from_shape;
+  const Pose plane_from_other = relativePose(plane, other);
   if (other.solid.kind() != ShapeKind::mesh) {
     return {contactOfPlane(plane, other)};
   }

@@ -151,9 +151,9 @@ TEST(PlanePair, QuerySolidsAreMeasuredAsWell) {
   const std::shared_ptr<NarrowPhase> phase = makeCoreNarrowPhase();
   const Pose at(Eigen::Translation3d(0, 0, -1));
   const PlacedSolid floor{*phase->plane(), Pose::Identity(), 0.0};
-  EXPECT_DOUBLE_EQ(phase->measure({*phase->point(), at, 0.0}, floor, kInfinity).depth, 1.0);
-  EXPECT_DOUBLE_EQ(phase->measure({*phase->needle(2.0), at, 0.5}, floor, kInfinity).depth, 2.5);
-  EXPECT_DOUBLE_EQ(phase->measure({*phase->block({1, 1, 4}), at, 0.0}, floor, kInfinity).depth, 3.0);
+  EXPECT_NEAR(phase->measure({*phase->point(), at, 0.0}, floor, kInfinity).depth, 1.0, 1e-12);
+  EXPECT_NEAR(phase->measure({*phase->needle(2.0), at, 0.5}, floor, kInfinity).depth, 2.5, 1e-12);
+  EXPECT_NEAR(phase->measure({*phase->block({1, 1, 4}), at, 0.0}, floor, kInfinity).depth, 3.0, 1e-12);
 }
 
 TEST(PlanePair, TwoPlanesCountAsInContact) {

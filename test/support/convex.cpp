@@ -69,7 +69,8 @@ void Convex::findBall() {
 }
 
 Vector3r Convex::support(const Vector3r& direction) const {
-  const Real u = direction.dot(x_), v = direction.dot(y_), across = std::hypot(u, v);
+  using std::hypot;
+  const Real u = direction.dot(x_), v = direction.dot(y_), across = hypot(u, v);
   const Disc* farthest = nullptr;
   Real most = 0;
   for (const Disc& disc : discs_) {

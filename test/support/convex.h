@@ -8,11 +8,20 @@
 
 #include "hgrid_proximity/geometry/shape.h"
 
+#ifdef HGRID_ORACLE_128
+#include <boost/multiprecision/eigen.hpp>
+#include <boost/multiprecision/float128.hpp>
+#endif
+
 namespace hgrid {
 namespace test {
 
-/// The number type of the distance oracle. It has extended precision: 19 digits on a PC.
+/// The number type of the distance oracle. It has extended precision: 19 digits on a PC, or 34 with HGRID_ORACLE_128.
+#ifdef HGRID_ORACLE_128
+using Real = boost::multiprecision::float128;
+#else
 using Real = long double;
+#endif
 using Vector3r = Eigen::Matrix<Real, 3, 1>;
 
 /// A convex set in the world frame: a core, and all points within `radius` of the core. The core is the convex hull of

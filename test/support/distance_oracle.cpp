@@ -10,6 +10,8 @@ namespace hgrid {
 namespace test {
 namespace {
 
+const Real kRounding = 100 * std::numeric_limits<Real>::epsilon();  // of one step, relative to the lengths
+
 /// The difference of two points, one from each core.
 struct Difference {
   Vector3r v, on_first, on_second;
@@ -42,7 +44,9 @@ bool nearestBetween(Simplex& simplex) {
       mixed[k][i] = across[k].dot(across[i]) / across[k].squaredNorm();
       across[i] -= mixed[k][i] * across[k];
     }
-    if (across[i].squaredNorm() <= 1e-34L * side.squaredNorm()) return false;  // flat; a face of the simplex is enough
+    if (across[i].squaredNorm() <= kRounding * kRounding * side.squaredNorm()) {
+      return false;  // flat; a face of the simplex is enough
+    }
     share[i] = -across[i].dot(rest) / across[i].squaredNorm();
     rest += share[i] * across[i];
   }
@@ -99,7 +103,7 @@ CoreDistance coreDistance(const Convex& first, const Convex& second, Real tolera
     result.upper = length;
     result.on_first = simplex.mixed(&Difference::on_first);
     result.on_second = simplex.mixed(&Difference::on_second);
-    if (length <= 1e-17L * (1 + first.reach() + second.reach())) {
+    if (length <= kRounding * (1 + first.reach() + second.reach())) {
       result.lower = 0;
       break;
     }
