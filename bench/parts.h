@@ -32,7 +32,7 @@ void runAgeing(const Options& options, std::vector<Record>& records);
 /// processor.
 void runThreads(const Options& options, std::vector<Record>& records);
 
-/// Measures queries of each kind. The boxes do not move. Asks the queries one by one and batched.
+/// Measures queries of each kind. The boxes do not move.
 void runQueries(const Options& options, std::vector<Record>& records);
 /// As above, with these peers only, and with this number of boxes.
 void runQueriesOf(const std::vector<QueryPeerKind>& kinds, std::size_t n, const Options& options,

@@ -13,11 +13,6 @@ namespace hgrid {
 namespace bench {
 namespace {
 
-struct Run {
-  const QueryPeerKind* peer;
-  bool batched;
-};
-
 /// The workload and the kind of queries of one match.
 struct Setting {
   std::string workload;
@@ -25,19 +20,18 @@ struct Setting {
   QueryKind kind;
 };
 
-std::vector<Run> runsOf(const std::vector<QueryPeerKind>& kinds, const Options& options, QueryKind kind) {
-  std::vector<Run> runs;
+std::vector<const QueryPeerKind*> peersFor(const std::vector<QueryPeerKind>& kinds, const Options& options,
+                                           QueryKind kind) {
+  std::vector<const QueryPeerKind*> peers;
   for (const QueryPeerKind& peer : kinds) {
-    for (const bool batched : {false, true}) {
-      if (options.peer(peer.name) && peer.make()->answers(kind, batched)) runs.push_back({&peer, batched});
-    }
+    if (options.peer(peer.name) && peer.make()->answers(kind)) peers.push_back(&peer);
   }
-  return runs;
+  return peers;
 }
 
-Record recordOf(const Setting& setting, std::size_t n, const Run& run) {
+Record recordOf(const Setting& setting, std::size_t n, const QueryPeerKind& peer) {
   Record record("query");
-  record.text("peer", run.peer->name).text("query", name(setting.kind)).flag("batched", run.batched);
+  record.text("peer", peer.name).text("query", name(setting.kind));
   return record.text("workload", setting.workload).text("placed", name(setting.placed)).number("n", double(n));
 }
 
@@ -45,12 +39,12 @@ void play(const std::vector<QueryPeerKind>& kinds, const Options& options, const
           const QuerySet& queries, std::vector<Record>& records) {
   const QueryKind kind = setting.kind;
   const Judge judge(kind, queries, world.boxes());
-  const std::vector<Run> runs = runsOf(kinds, options, kind);
+  const std::vector<const QueryPeerKind*> peers = peersFor(kinds, options, kind);
   Match match;
   match.decide(0, judge.count(), judge.checksum());
-  for (const Run& run : runs) {
-    const auto begin = [&, run]() -> Contestant::Play {
-      const auto play = std::make_shared<QueriesPlay>(*run.peer, kind, run.batched, world.boxes(), queries, judge);
+  for (const QueryPeerKind* const peer : peers) {
+    const auto begin = [&, peer]() -> Contestant::Play {
+      const auto play = std::make_shared<QueriesPlay>(*peer, kind, world.boxes(), queries, judge);
       return [play](double budget_ms) { return (*play)(budget_ms); };
     };
     match.add(std::make_unique<Contestant>(begin, 1), false, false);
@@ -62,20 +56,19 @@ void play(const std::vector<QueryPeerKind>& kinds, const Options& options, const
               world.boxes().size(), name(kind), name(setting.placed), judge.judgedCount(), judge.size(),
               double(judge.count()) / double(judge.judgedCount()));
   const std::vector<Score> scores = match.scores();
-  for (std::size_t i = 0; i < runs.size(); ++i) {
+  for (std::size_t i = 0; i < peers.size(); ++i) {
     const Score& score = scores[i];
     const std::string& status = match.contestant(i).status();
-    const std::size_t per_sample = runs[i].batched ? queries.size() : QueriesPlay::kChunk;
-    const double us = 1e3 * score.median_ms / double(per_sample);
-    Record record = recordOf(setting, world.boxes().size(), runs[i]);
+    const double us = 1e3 * score.median_ms / double(QueriesPlay::kChunk);
+    Record record = recordOf(setting, world.boxes().size(), *peers[i]);
     record.number("median_us", us);
-    record.number("min_us", 1e3 * score.min_ms / double(per_sample)).number("spread", score.spread);
+    record.number("min_us", 1e3 * score.min_ms / double(QueriesPlay::kChunk)).number("spread", score.spread);
     record.number("hits_per_query", double(score.count) / double(judge.judgedCount()));
     record.bits("checksum", score.checksum).flag("correct", score.correct && status == "ok");
     record.number("judged", double(judge.judgedCount())).text("status", status);
     records.push_back(record);
-    std::printf("  %-28s %-7s %10.4f us  spread %3.0f %%  %s\n", runs[i].peer->name.c_str(),
-                runs[i].batched ? "batched" : "single", us, 100.0 * score.spread, remarkOn(score, status));
+    std::printf("  %-28s %10.4f us  spread %3.0f %%  %s\n", peers[i]->name.c_str(), us, 100.0 * score.spread,
+                remarkOn(score, status));
   }
   std::fflush(stdout);
 }

@@ -28,13 +28,11 @@ set(HGRID_CORE_SOURCES
   src/broadphase/book/partition_searches.cpp
   src/broadphase/book/query_shape.cpp
   src/broadphase/book/room_edges.cpp
-  src/broadphase/book/room_layer.cpp
   src/broadphase/book/rooms.cpp
   src/broadphase/book/sweep_array.cpp
   src/broadphase/book/sweep_lists.cpp
   src/broadphase/book/tree_grid.cpp
   src/broadphase/book/uniform_grid.cpp
-  src/broadphase/broad_phase_reader.cpp
   src/broadphase/broad_phase_type.cpp
   src/broadphase/hgrid/bounds_tree.cpp
   src/broadphase/hgrid/box_sample.cpp
@@ -52,7 +50,6 @@ set(HGRID_CORE_SOURCES
   src/broadphase/hgrid/pair_collection.cpp
   src/broadphase/hgrid/pair_search.cpp
   src/broadphase/hgrid/queries.cpp
-  src/broadphase/hgrid/query_tree.cpp
   src/broadphase/hgrid/region_search.cpp
   src/broadphase/hgrid/region_tree.cpp
   src/broadphase/hgrid/search_tasks.cpp
@@ -85,7 +82,6 @@ set(HGRID_CORE_SOURCES
   src/maps/self_filter.cpp
   src/maps/static_grid.cpp
   src/maps/static_grid_search.cpp
-  src/maps/touch_table.cpp
   src/narrow/box_search.cpp
   src/narrow/box_tree.cpp
   src/narrow/convex_pair.cpp

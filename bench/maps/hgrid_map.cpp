@@ -4,7 +4,6 @@
 
 #include "bench/maps/map_peer.h"
 #include "hgrid_proximity/maps/static_grid.h"
-#include "hgrid_proximity/maps/touch_table.h"
 
 namespace hgrid {
 namespace bench {
@@ -33,25 +32,6 @@ class StaticGridMap final : public MapPeer {
   StaticGrid grid_;
 };
 
-/// TouchTable as a peer. The time to make it includes the time to make its StaticGrid.
-class TouchTableMap final : public MapPeer {
- public:
-  TouchTableMap(double resolution, const std::vector<Voxel>& leaves) : table_(StaticGrid(resolution, leaves)) {}
-
-  bool answers(MapQuestion question) const override {
-    return question == MapQuestion::touches || question == MapQuestion::small;
-  }
-  bool touches(const Sphere& sphere) override { return table_.touches(sphere); }
-  void touches(const std::vector<Sphere>& spheres, std::vector<std::uint8_t>& touched) override {
-    table_.touches(spheres, touched);
-  }
-  std::vector<Voxel> leaves() override { return table_.grid().voxels(); }
-  std::size_t bytes() const override { return table_.bytes() + table_.grid().bytes(); }
-
- private:
-  TouchTable table_;
-};
-
 }  // namespace
 
 Octomap readMap(const std::string& file) {
@@ -69,15 +49,6 @@ std::unique_ptr<MapPeer> readStaticGrid(const Map& map) {
 
 std::unique_ptr<MapPeer> makeStaticGrid(const Map& map) {
   return std::make_unique<StaticGridMap>(map.resolution, map.leaves);
-}
-
-std::unique_ptr<MapPeer> readTouchTable(const Map& map) {
-  const Octomap read = readMap(map.file);
-  return std::make_unique<TouchTableMap>(read.resolution, read.occupied);
-}
-
-std::unique_ptr<MapPeer> makeTouchTable(const Map& map) {
-  return std::make_unique<TouchTableMap>(map.resolution, map.leaves);
 }
 
 }  // namespace bench

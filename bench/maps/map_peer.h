@@ -31,14 +31,9 @@ class MapPeer {
   virtual ~MapPeer() = default;
 
   virtual bool answers(MapQuestion question) const = 0;
-  // The next four functions are only called for kinds of questions that answers() accepts.
+  // The next three functions are only called for kinds of questions that answers() accepts.
 
   virtual bool touches(const Sphere&) { return false; }
-  /// Replaces `touched` with 1 for each sphere that touches a leaf and 0 for each other sphere.
-  virtual void touches(const std::vector<Sphere>& spheres, std::vector<std::uint8_t>& touched) {
-    touched.clear();
-    for (const Sphere& sphere : spheres) touched.push_back(touches(sphere) ? 1 : 0);
-  }
   /// Replaces the list with all leaves that the sphere touches, in any order.
   virtual void overlapping(const Sphere&, std::vector<Voxel>&) {}
   /// Returns the first leaf along the segment, or any cell in that leaf.
@@ -71,8 +66,6 @@ Octomap readMap(const std::string& file);
 // One or two factories per peer. If the library of a peer was not found, its factories are declared but not defined.
 std::unique_ptr<MapPeer> readStaticGrid(const Map& map);
 std::unique_ptr<MapPeer> makeStaticGrid(const Map& map);
-std::unique_ptr<MapPeer> readTouchTable(const Map& map);
-std::unique_ptr<MapPeer> makeTouchTable(const Map& map);
 std::unique_ptr<MapPeer> readOcTree(const Map& map);
 std::unique_ptr<MapPeer> readFclOcTree(const Map& map);
 std::unique_ptr<MapPeer> makeFclLeafBoxes(const Map& map);

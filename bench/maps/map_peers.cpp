@@ -16,7 +16,6 @@ const std::vector<MapPeerKind>& mapPeers() {
   static const std::size_t any = std::numeric_limits<std::size_t>::max();
   static const std::vector<MapPeerKind> kinds{
       {"hgrid", any, readStaticGrid, makeStaticGrid},
-      {"hgrid TouchTable", any, readTouchTable, makeTouchTable},
 #ifdef HGRID_BENCH_OCTOMAP
       {"OctoMap", any, readOcTree, nullptr},
 #endif

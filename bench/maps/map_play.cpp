@@ -83,10 +83,6 @@ Sample AskMapPlay::compared(const MapDoubts& doubts) {
 
 double AskMapPlay::timed() {
   const Clock::time_point begin = Clock::now();
-  if (batched_ && kind_ == MapQuestion::small) {
-    peer_->touches(questions_->small, touched_);
-    return msSince(begin);
-  }
   if (batched_) {
     for (const std::uint32_t i : questions_->inMortonOrder(map_->resolution)) answer(i);
     return msSince(begin);

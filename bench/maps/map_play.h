@@ -49,7 +49,6 @@ class AskMapPlay {
   const Map* map_;
   const MapQuestions* questions_;
   std::size_t next_ = 0;
-  std::vector<std::uint8_t> touched_;  // whether the small spheres touch a leaf
   std::vector<Voxel> found_;  // leaves that answer the last question; for `touches`, any leaf means "yes"
   Sample result_;             // template of all samples; only their times differ
 };

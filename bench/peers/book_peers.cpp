@@ -49,7 +49,7 @@ class PartitionQueries final : public QueryPeer {
   explicit PartitionQueries(BroadPhaseType type) : type_(type) {}
 
   void load(const std::vector<Aabb>& boxes) override { partition_ = loaded(type_, boxes); }
-  bool answers(QueryKind, bool batched) const override { return !batched; }
+  bool answers(QueryKind) const override { return true; }
   void sphere(const Sphere& sphere, std::vector<ProxyId>& found) override { partition_->overlapping(sphere, found); }
   void box(const Aabb& box, std::vector<ProxyId>& found) override { partition_->overlapping(box, found); }
   void segment(const Segment& segment, std::vector<ProxyId>& found) override {

@@ -49,20 +49,14 @@ class HGridPeer final : public Peer {
 
 class HGridQueries final : public QueryPeer {
  public:
-  /// @param prepared  whether load() also calls prepareQueries()
-  explicit HGridQueries(bool prepared) : prepared_(prepared) {}
-
   void load(const std::vector<Aabb>& boxes) override {
     std::vector<ProxyId> ids(boxes.size());
     std::iota(ids.begin(), ids.end(), 0);
     grid_.emplace(GridScale::fitting(boxes));
     grid_->update(ids, boxes);
-    if (prepared_) grid_->prepareQueries();
   }
 
-  bool answers(QueryKind kind, bool batched) const override {
-    return !batched || (kind != QueryKind::nearest && kind != QueryKind::nearest8);
-  }
+  bool answers(QueryKind) const override { return true; }
 
   void sphere(const Sphere& sphere, std::vector<ProxyId>& found) override { grid_->overlapping(sphere, found); }
   void box(const Aabb& box, std::vector<ProxyId>& found) override { grid_->overlapping(box, found); }
@@ -77,28 +71,10 @@ class HGridQueries final : public QueryPeer {
     for (const NearHit& hit : near_) found.push_back(hit.id);
   }
 
-  void batch(QueryKind kind, const QuerySet& queries) override {
-    segments_asked_ = kind == QueryKind::segment;
-    if (kind == QueryKind::sphere) grid_->overlapping(queries.spheres, ids_);
-    if (kind == QueryKind::box) grid_->overlapping(queries.boxes, ids_);
-    if (kind == QueryKind::segment) grid_->along(queries.segments, segments_);
-  }
-  void batchHits(std::size_t query, std::vector<ProxyId>& found) const override {
-    found.clear();
-    const std::size_t begin = segments_asked_ ? segments_.begin[query] : ids_.begin[query];
-    const std::size_t count = segments_asked_ ? segments_.count[query] : ids_.count[query];
-    for (std::size_t i = begin; i < begin + count; ++i)
-      found.push_back(segments_asked_ ? segments_.found[i].id : ids_.found[i]);
-  }
-
  private:
-  bool prepared_;
   std::optional<HGrid> grid_;
   std::vector<SegmentHit> met_;
   std::vector<NearHit> near_;
-  IdBatch ids_;
-  SegmentBatch segments_;
-  bool segments_asked_ = false;
 };
 
 constexpr Isa kIsas[] = {Isa::portable, Isa::sse2, Isa::avx2, Isa::avx512, Isa::neon};
@@ -121,9 +97,7 @@ std::unique_ptr<Peer> makeHGrid(int threads, const std::string& instructions) {
   return std::make_unique<HGridPeer>(threads, chosen);
 }
 
-std::unique_ptr<QueryPeer> makeHGridQueries() { return std::make_unique<HGridQueries>(true); }
-
-std::unique_ptr<QueryPeer> makeUnpreparedHGridQueries() { return std::make_unique<HGridQueries>(false); }
+std::unique_ptr<QueryPeer> makeHGridQueries() { return std::make_unique<HGridQueries>(); }
 
 }  // namespace bench
 }  // namespace hgrid

@@ -18,7 +18,7 @@ class BoostQueries final : public QueryPeer {
     tree_ = BoostTree(boostValues(boxes));
   }
 
-  bool answers(QueryKind, bool batched) const override { return !batched; }
+  bool answers(QueryKind) const override { return true; }
 
   void sphere(const Sphere& sphere, std::vector<ProxyId>& found) override {
     const double squared = sphere.radius * sphere.radius;

@@ -27,9 +27,7 @@ class BulletQueries final : public QueryPeer {
     tree_.optimizeTopDown();
   }
 
-  bool answers(QueryKind kind, bool batched) const override {
-    return !batched && kind != QueryKind::nearest && kind != QueryKind::nearest8;
-  }
+  bool answers(QueryKind kind) const override { return kind != QueryKind::nearest && kind != QueryKind::nearest8; }
 
   void sphere(const Sphere& sphere, std::vector<ProxyId>& found) override {
     const double squared = sphere.radius * sphere.radius;

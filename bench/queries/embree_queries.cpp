@@ -25,7 +25,7 @@ class EmbreeQueries final : public QueryPeer {
     scene_->build(boxes_);
   }
 
-  bool answers(QueryKind kind, bool batched) const override { return !batched && kind != QueryKind::box; }
+  bool answers(QueryKind kind) const override { return kind != QueryKind::box; }
 
   void sphere(const Sphere& sphere, std::vector<ProxyId>& found) override {
     found.clear();

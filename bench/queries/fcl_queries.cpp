@@ -32,7 +32,7 @@ class FclQueries final : public QueryPeer {
     tree_.setup();
   }
 
-  bool answers(QueryKind, bool batched) const override { return !batched; }
+  bool answers(QueryKind) const override { return true; }
 
   void sphere(const Sphere& sphere, std::vector<ProxyId>& found) override {
     const double squared = sphere.radius * sphere.radius;

@@ -7,9 +7,9 @@
 namespace hgrid {
 namespace bench {
 
-QueriesPlay::QueriesPlay(const QueryPeerKind& peer, QueryKind kind, bool batched, const std::vector<Aabb>& boxes,
+QueriesPlay::QueriesPlay(const QueryPeerKind& peer, QueryKind kind, const std::vector<Aabb>& boxes,
                          const QuerySet& queries, const Judge& judge)
-    : peer_(peer.make()), kind_(kind), batched_(batched), queries_(&queries), judge_(&judge) {
+    : peer_(peer.make()), kind_(kind), queries_(&queries), judge_(&judge) {
   peer_->load(boxes);
   result_ = judgedResult();
 }
@@ -31,14 +31,9 @@ void QueriesPlay::answer(std::size_t query, std::vector<ProxyId>& found) {
 Sample QueriesPlay::judgedResult() {
   Sample result;
   Checksum sum;
-  if (batched_) peer_->batch(kind_, *queries_);
   for (std::size_t i = 0; i < judge_->size(); ++i) {
     if (!judge_->judges(i)) continue;
-    if (batched_) {
-      peer_->batchHits(i, found_);
-    } else {
-      answer(i, found_);
-    }
+    answer(i, found_);
     result.count += found_.size();
     for (const ProxyId id : found_) sum.add(Judge::hit(i, id));
   }
@@ -48,10 +43,6 @@ Sample QueriesPlay::judgedResult() {
 
 double QueriesPlay::timedChunk() {
   const Clock::time_point begin = Clock::now();
-  if (batched_) {
-    peer_->batch(kind_, *queries_);
-    return msSince(begin);
-  }
   for (std::size_t i = 0; i < kChunk; ++i) answer(next_ + i, found_);
   next_ = (next_ + kChunk) % queries_->size();
   return msSince(begin);

@@ -11,13 +11,12 @@ namespace bench {
 /// Measures how long a peer takes to answer queries of one kind.
 ///
 /// First the peer answers the judged queries without timing. Then each sample times the next kChunk queries of the set.
-/// If `batched` is true, each sample instead times one call that answers all queries.
 class QueriesPlay {
  public:
   static constexpr std::size_t kChunk = 1000;
 
-  QueriesPlay(const QueryPeerKind& peer, QueryKind kind, bool batched, const std::vector<Aabb>& boxes,
-              const QuerySet& queries, const Judge& judge);
+  QueriesPlay(const QueryPeerKind& peer, QueryKind kind, const std::vector<Aabb>& boxes, const QuerySet& queries,
+              const Judge& judge);
 
   std::vector<Sample> operator()(double budget_ms);
 
@@ -28,7 +27,6 @@ class QueriesPlay {
 
   std::unique_ptr<QueryPeer> peer_;
   QueryKind kind_;
-  bool batched_;
   const QuerySet* queries_;
   const Judge* judge_;
   std::size_t next_ = 0;

@@ -19,9 +19,7 @@ class QueryPeer {
 
   /// Stores the boxes and does everything that makes later queries faster.
   virtual void load(const std::vector<Aabb>& boxes) = 0;
-  /// Returns whether the peer answers queries of this kind. If `batched`, one call answers all queries; else each call
-  /// answers one.
-  virtual bool answers(QueryKind kind, bool batched) const = 0;
+  virtual bool answers(QueryKind kind) const = 0;
 
   // Each of the next four functions answers one query and replaces the list with its hits. The benchmark calls them
   // only for kinds of queries that answers() accepts.
@@ -29,10 +27,6 @@ class QueryPeer {
   virtual void segment(const Segment&, std::vector<ProxyId>&) {}
   virtual void box(const Aabb&, std::vector<ProxyId>&) {}
   virtual void nearest(const Eigen::Vector3d&, std::size_t, std::vector<ProxyId>&) {}
-  /// Answers all queries of one kind. The peer stores the hits in its own format.
-  virtual void batch(QueryKind, const QuerySet&) {}
-  /// Replaces the list with the hits that the last batch() found for one query.
-  virtual void batchHits(std::size_t, std::vector<ProxyId>&) const {}
 };
 
 struct QueryPeerKind {
@@ -44,8 +38,7 @@ struct QueryPeerKind {
 const std::vector<QueryPeerKind>& queryPeers();
 
 // One factory per peer. If the library of a peer was not found, its factory is declared but not defined.
-std::unique_ptr<QueryPeer> makeHGridQueries();            // calls HGrid::prepareQueries() before the first query
-std::unique_ptr<QueryPeer> makeUnpreparedHGridQueries();  // does not
+std::unique_ptr<QueryPeer> makeHGridQueries();
 std::unique_ptr<QueryPeer> makeFclQueries();
 std::unique_ptr<QueryPeer> makeBulletQueries();
 std::unique_ptr<QueryPeer> makeBoostQueries();

@@ -8,7 +8,6 @@ namespace bench {
 const std::vector<QueryPeerKind>& queryPeers() {
   static const std::vector<QueryPeerKind> kinds{
       {"hgrid", makeHGridQueries},
-      {"hgrid unprepared", makeUnpreparedHGridQueries},
 #ifdef HGRID_BENCH_FCL
       {"FCL DynamicAABBTree", makeFclQueries},
 #endif

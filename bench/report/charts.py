@@ -104,10 +104,9 @@ def queries_chart(figures, kinds, path):
 
 
 def query_panel(svg, figures, kind, left, top, width, height):
-    ways = list(dict.fromkeys((record['peer'], record['batched'])
-              for record in figures.all('query', query=kind, placed='near')))
-    ways.sort(key=lambda way: (way[0] != 'hgrid', not way[1]))
-    speeds = {(record['peer'], record['batched'], record['workload']): 1 / record['median_us']
+    peers = list(dict.fromkeys(record['peer'] for record in figures.all('query', query=kind, placed='near')))
+    peers.sort(key=lambda peer: peer != 'hgrid')
+    speeds = {(record['peer'], record['workload']): 1 / record['median_us']
               for record in figures.all('query', query=kind, placed='near') if record['correct']}
     most = max(speeds.values(), default=1.0)
     step = 10.0 ** math.floor(math.log10(most))
@@ -118,17 +117,15 @@ def query_panel(svg, figures, kind, left, top, width, height):
         svg.line(left, y, left + width, y)
         svg.text(left - 6, y + 4, '%g' % (i * step), 11, 'end')
     group = width / len(WORKLOADS)
-    bar = min(28.0, group * 0.85 / len(ways))
+    bar = min(28.0, group * 0.85 / len(peers))
     for column, workload in enumerate(WORKLOADS):
-        begin = left + group * (column + 0.5) - bar * len(ways) / 2
+        begin = left + group * (column + 0.5) - bar * len(peers) / 2
         svg.text(left + group * (column + 0.5), top + height + 18, workload, 12, 'middle')
-        for i, (peer, batched) in enumerate(ways):
-            speed = speeds.get((peer, batched, workload), 0.0)
+        for i, peer in enumerate(peers):
+            speed = speeds.get((peer, workload), 0.0)
             tall = height * speed / most
-            color = '#f29a9a' if peer == 'hgrid' and not batched else COLORS.get(peer, '#000')
-            svg.bar(begin + i * bar, top + height - tall, bar - 2, tall, color)
-    for i, (peer, batched) in enumerate(ways):
-        color = '#f29a9a' if peer == 'hgrid' and not batched else COLORS.get(peer, '#000')
-        x = left + i * width / max(len(ways), 5)
-        svg.bar(x, top + height + 32, 12, 12, color)
-        svg.text(x + 17, top + height + 42, peer + (', batched' if batched else ''), 11)
+            svg.bar(begin + i * bar, top + height - tall, bar - 2, tall, COLORS.get(peer, '#000'))
+    for i, peer in enumerate(peers):
+        x = left + i * width / max(len(peers), 5)
+        svg.bar(x, top + height + 32, 12, 12, COLORS.get(peer, '#000'))
+        svg.text(x + 17, top + height + 42, peer, 11)

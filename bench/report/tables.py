@@ -120,14 +120,11 @@ def queries(figures):
     kinds = [kind for kind in QUERIES if figures.all('query', query=kind, placed='near')]
     rows = []
     for peer in figures.peers('query', placed='near'):
-        for batched in (False, True):
-            records = [[figures.one('query', peer=peer, workload=workload, query=kind, batched=batched,
-                                    placed='near')
-                        for workload in WORKLOADS] for kind in kinds]
-            cells = [[shown(record, 'median_us') for record in row] for row in records]
-            if any(cell != '–' for row in cells for cell in row):
-                rows.append([peer + (', batched' if batched else '')]
-                            + [' / '.join(row) if set(row) != {'–'} else '–' for row in cells])
+        records = [[figures.one('query', peer=peer, workload=workload, query=kind, placed='near')
+                    for workload in WORKLOADS] for kind in kinds]
+        cells = [[shown(record, 'median_us') for record in row] for row in records]
+        if any(cell != '–' for row in cells for cell in row):
+            rows.append([peer] + [' / '.join(row) if set(row) != {'–'} else '–' for row in cells])
     n = figures.all('query', placed='near')[-1]['n']
     right = [[figures.one('query', workload=workload, query=kind, correct=True, placed='near')
               for workload in WORKLOADS]

@@ -4,7 +4,7 @@
 from figures import TREE, WORKLOADS, short
 from markdown import count, table
 from verdicts import Verdicts, ms, ratio
-from world_targets import all_uneven, changing, empty_space
+from world_targets import all_uneven, changing
 
 
 def against_tree(figures, verdicts, n, workload):
@@ -60,18 +60,14 @@ def ages(figures, verdicts):
 
 
 def queries(figures, verdicts):
-    def us(peer, kind, workload, batched=False):
-        record = figures.one('query', peer=peer, query=kind, workload=workload, batched=batched, n=100000,
-                             placed='near')
+    def us(peer, kind, workload):
+        record = figures.one('query', peer=peer, query=kind, workload=workload, n=100000, placed='near')
         return record['median_us'] if record and record['correct'] else None
-    rows = (('sphere', False, 'Boost R-tree', lambda workload: 1), ('sphere', False, TREE, lambda workload: 2),
-            ('sphere', True, 'Embree', lambda workload: 1 if workload == 'mixed' else 1.5),
-            ('segment', False, 'Boost R-tree', lambda workload: 1.5), ('segment', True, 'Embree', lambda workload: 1))
-    for kind, batched, peer, least in rows:
+    rows = (('sphere', 'Boost R-tree', 1), ('sphere', TREE, 2), ('segment', 'Boost R-tree', 1.5))
+    for kind, peer, least in rows:
         for workload in WORKLOADS:
-            value = ratio(us(peer, kind, workload), us('hgrid', kind, workload, batched))
-            verdicts.at_least('%s, n = 100,000: %s queries%s, times faster than %s'
-                              % (workload, kind, ' batched' if batched else '', peer), least(workload), value)
+            value = ratio(us(peer, kind, workload), us('hgrid', kind, workload))
+            verdicts.at_least('%s, n = 100,000: %s queries, times faster than %s' % (workload, kind, peer), least, value)
 
 
 def maps(figures, verdicts):
@@ -92,9 +88,6 @@ def maps(figures, verdicts):
             for batched in (False, True):
                 us, theirs = (figure(one, query, 'median_us', batched=batched) for one in ('hgrid', peer))
                 verdicts.at_least(where + what + (', batched' if batched else ''), least, ratio(theirs, us))
-        if name == 'geb079':
-            verdicts.at_most(where + 'µs per small sphere, batched, with a TouchTable', 0.15,
-                             figure('hgrid TouchTable', 'small', 'median_us', batched=True))
     asked = figures.all('map', peer='hgrid') if figures.all('map', peer='OctoMap') else []
     if asked:
         verdicts.holds('hgrid\'s leaves and answers on maps equal OctoMap\'s in all %d settings' % len(asked),
@@ -186,7 +179,6 @@ def verdicts_table(figures):
     held = [record['bytes_per_object'] for record in figures.all('pairs', peer='hgrid') if record['n'] >= 10000]
     verdicts.at_most('most bytes per box, n from 10,000 up', 96, max(held) if held else None)
     queries(figures, verdicts)
-    empty_space(figures, verdicts)
     maps(figures, verdicts)
     if figures.all('pairs', peer='hgrid'):
         sameness(figures, verdicts)

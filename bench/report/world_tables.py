@@ -14,8 +14,7 @@ MOVERS_NOTE = ('Median ms per frame: the same boxes move in every frame / other 
                'random. In the second case, 30 frames come before the measured ones.')
 
 PREPARATION_NOTE = ('Median of three measurements: storing all boxes, and building what makes later queries faster. '
-                    'For hgrid this is one bulk update and `prepareQueries()`; for hgrid unprepared, the bulk update '
-                    'alone.')
+                    'For hgrid this is one bulk update.')
 EMPTY_NOTE = ('Median µs per query. The queries are at random places in the bounds of all boxes. Their size gives '
               'about half a hit per query if the world is not too empty for that.')
 
@@ -79,13 +78,12 @@ def empty_space(figures):
     found = figures.all('query', placed='anywhere')
     for kind, n in dict.fromkeys((record['query'], record['n']) for record in found):
         these = [record for record in found if record['query'] == kind and record['n'] == n]
-        ways = list(dict.fromkeys((record['peer'], record['batched']) for record in these))
+        peers = list(dict.fromkeys(record['peer'] for record in these))
         rows = []
         for workload in dict.fromkeys(record['workload'] for record in these):
-            of = {(record['peer'], record['batched']): record for record in these if record['workload'] == workload}
+            of = {record['peer']: record for record in these if record['workload'] == workload}
             right = next((record for record in of.values() if record['correct']), None)
             rows.append([workload, short(right['hits_per_query']) if right else '–']
-                        + [shown(of.get(way), 'median_us') for way in ways])
-        heads = [peer + (', batched' if batched else '') for peer, batched in ways]
-        tables.append(table(['%s, n = %s' % (kind, count(n)), 'hits'] + heads, rows))
+                        + [shown(of.get(peer), 'median_us') for peer in peers])
+        tables.append(table(['%s, n = %s' % (kind, count(n)), 'hits'] + peers, rows))
     return '\n\n'.join([EMPTY_NOTE] + tables)

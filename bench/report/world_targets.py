@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
-"""Targets for uneven worlds, for worlds in which different boxes move in each frame, and for queries anywhere."""
+"""Targets for uneven worlds, for worlds in which different boxes move in each frame."""
 from markdown import count
 from verdicts import ms, ratio
 
@@ -30,13 +30,3 @@ def changing(figures, verdicts):
         workload, n, moving = (record[field] for field in ('workload', 'n', 'moving'))
         what = '%s, n = %s: %g %% moving, others in each frame, ÷ all moving' % (workload, count(n), 100 * moving)
         verdicts.at_most(what, 0.2 if moving <= 0.01 else 1, ratio(ms(record), ms(figures.pairs('hgrid', workload, n))))
-
-
-def empty_space(figures, verdicts):
-    for theirs in figures.all('query', placed='anywhere', peer='Embree', n=100000, correct=True):
-        for batched in (False, True):
-            ours = figures.one('query', placed='anywhere', peer='hgrid', batched=batched, correct=True,
-                               **{field: theirs[field] for field in ('query', 'workload', 'n')})
-            what = '%s, n = 100,000: %s queries anywhere%s, times faster than Embree' % (
-                theirs['workload'], theirs['query'], ' batched' if batched else '')
-            verdicts.at_least(what, 1, ratio(theirs['median_us'], ours and ours['median_us']))

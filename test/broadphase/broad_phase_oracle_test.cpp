@@ -116,32 +116,6 @@ void expectRightNearest(const BroadPhaseReader& tested, const std::vector<Aabb>&
   }
 }
 
-/// Checks that a batch of queries has the same answers as single queries.
-void expectBatchesAsSingles(const BroadPhaseReader& tested, const std::vector<Aabb>& boxes, Random& random) {
-  std::vector<Aabb> around;
-  std::vector<Sphere> spheres;
-  std::vector<Segment> segments;
-  for (int i = random.below(6); i > 0; --i) {
-    const Eigen::Vector3d a = pointNear(boxes, random), b = pointNear(boxes, random);
-    around.push_back({a.cwiseMin(b).cast<float>(), a.cwiseMax(b).cast<float>()});
-    spheres.push_back({a, someLength(boxes, random)});
-    segments.push_back({a, b, random.chance(0.5) ? 0.0 : someLength(boxes, random)});
-  }
-  IdBatch ids;
-  SegmentBatch hits;
-  const auto listOf = [](const auto& batch, std::size_t i) {
-    const auto begin = batch.found.begin() + std::ptrdiff_t(batch.begin[i]);
-    return std::vector<std::decay_t<decltype(*begin)>>(begin, begin + std::ptrdiff_t(batch.count[i]));
-  };
-  tested.overlapping(around, ids);
-  for (std::size_t i = 0; i < around.size(); ++i) ASSERT_EQ(listOf(ids, i), test::foundBy(tested, around[i]));
-  tested.overlapping(spheres, ids);
-  for (std::size_t i = 0; i < spheres.size(); ++i) ASSERT_EQ(listOf(ids, i), test::foundBy(tested, spheres[i]));
-  tested.along(segments, hits);
-  for (std::size_t i = 0; i < segments.size(); ++i) ASSERT_EQ(listOf(hits, i), test::alongOf(tested, segments[i]));
-  ASSERT_EQ(hits.begin.size(), segments.size());
-}
-
 /// Claim: for this family of worlds, pairs, box queries and nearest queries give the same results as a scan of all
 /// boxes. Sphere and segment queries find all boxes, and extra boxes only within the rounding error.
 template <class Tested>
@@ -158,12 +132,10 @@ void expectAnswersOfAScan(Family family) {
     const test::Pairs expected = test::allOverlaps(boxes);
     true_pairs += expected.size();
     ASSERT_EQ(test::pairsOf(*tested), expected);
-    if (random.chance(0.5)) tested->prepareQueries();
     ASSERT_NO_FATAL_FAILURE(expectRightBoxAnswers(*tested, boxes, random));
     ASSERT_NO_FATAL_FAILURE(expectRightSphereAnswers(*tested, boxes, random));
     ASSERT_NO_FATAL_FAILURE(expectRightSegmentAnswers(*tested, boxes, random));
     ASSERT_NO_FATAL_FAILURE(expectRightNearest(*tested, boxes, random));
-    ASSERT_NO_FATAL_FAILURE(expectBatchesAsSingles(*tested, boxes, random));
     ASSERT_NO_THROW(tested->checkInvariants());
   }
   if (family == Family::empty) {

@@ -191,12 +191,6 @@ void ChurnWorld::expectRightQueries() {
   for (std::size_t i = 0; i < nearest.size(); ++i) {
     ASSERT_EQ(std::make_pair(nearest[i].distance, nearest[i].id), near[i]);
   }
-  IdBatch batch;
-  grid_.overlapping(std::vector<Aabb>{box, boxes_[0], box}, batch);
-  for (const std::size_t i : {0, 2}) {
-    const auto begin = batch.found.begin() + std::ptrdiff_t(batch.begin[i]);
-    ASSERT_EQ(std::vector<ProxyId>(begin, begin + std::ptrdiff_t(batch.count[i])), in_box);
-  }
 }
 
 }  // namespace test

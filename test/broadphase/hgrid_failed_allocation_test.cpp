@@ -173,26 +173,6 @@ TEST(HGridFailedAllocation, OfASearchLosesNoPair) {
   }
 }
 
-/// Claim: if memory runs out while queries are prepared, queries work as before.
-TEST(HGridFailedAllocation, OfAPreparationLosesNoAnswer) {
-  test::Random random(5);
-  Boxes model;
-  for (ProxyId id = 0; id < 2000; ++id) model[id] = randomBox(random);
-  HGrid grid;
-  bulkUpdate(model).of_grid(grid);
-  const Aabb everywhere = test::boxAround(Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(1e3));
-  std::size_t k = 1;
-  for (; test::failsAt(k, test::Failing::one, [&] { grid.prepareQueries(); }); ++k) {
-    ASSERT_EQ(test::foundBy(grid, everywhere).size(), model.size());
-    if (k % 2 == 0) model[0] = randomBox(random);
-    grid.update(0, model[0]);
-    expectHolds(grid, model);
-  }
-  EXPECT_GT(k, 3u);
-  ASSERT_EQ(test::foundBy(grid, everywhere).size(), model.size());
-  grid.checkInvariants();
-}
-
 /// Uses so many boxes that the grid also allocates arrays for several threads.
 TEST(HGridFailedAllocation, ChangesNothingOfALargeGridWithTwoThreads) {
   test::Random random(4);

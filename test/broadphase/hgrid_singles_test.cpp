@@ -92,7 +92,6 @@ TEST_F(HGridSingles, AnswerLikeAGridThatGotAllBoxesAtOnce) {
     if (random_.chance(0.3)) {
       ASSERT_NO_FATAL_FAILURE(expectRightPairs());
     }
-    if (random_.chance(0.2)) grid_.prepareQueries();
     if (random_.chance(0.2)) {
       std::vector<ProxyId> ids;
       std::vector<Aabb> moved;

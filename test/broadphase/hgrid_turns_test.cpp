@@ -128,7 +128,6 @@ TEST(HGridTurns, BoxesMayMoveALittleInAnyWorld) {
       for (const ProxyId id : before) {
         ASSERT_EQ(test::foundBy(grid, boxes[id]), test::foundBy(brute_force, boxes[id])) << "box " << id;
       }
-      if (frame % 8 == 0) grid.prepareQueries();
       before = ids;
     }
   }

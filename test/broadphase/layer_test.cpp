@@ -90,7 +90,6 @@ TEST(Layer, AWithdrawnBoxReturnsToItsCell) {
     Aabb& box = boxes[layer.idAt(position)];
     EXPECT_FALSE(layer.putBack(position, box)) << "the box is not withdrawn";
     layer.withdraw(position);
-    const std::uint64_t changes = layer.changes();
     EXPECT_FALSE(layer.putBack(position, {box.min, box.max + Eigen::Vector3f(2, 0, 0)})) << "the box is too long";
     const Eigen::Vector3f far(100, 100, 100);
     EXPECT_FALSE(layer.putBack(position, {box.min + far, box.max + far})) << "the box is outside the bounds";
@@ -114,7 +113,6 @@ TEST(Layer, AWithdrawnBoxReturnsToItsCell) {
       ++stayed_away;
       EXPECT_TRUE(layer.putBack(position, box)) << "the box did not move";
     }
-    EXPECT_GT(layer.changes(), changes) << "a tree of the layer would seem valid";
   }
   EXPECT_GT(rounded_down, 10u);
   EXPECT_GT(returned, 100u);

@@ -10,7 +10,6 @@ PAIRS_BODY = "broadphase/kernels/pairs_body.h"
 BOXES_BODY = "broadphase/kernels/boxes_body.h"
 LINE_BODY = "broadphase/kernels/line_body.h"
 LINE_FILTER = "broadphase/kernels/line_filter_body.h"
-TREE_BODY = "broadphase/kernels/tree_body.h"
 AVX2 = "broadphase/kernels/simd_avx2.h"
 LAYER = "broadphase/hgrid/layer.cpp"
 LAYER_SORT = "broadphase/hgrid/layer_sort.cpp"
@@ -38,7 +37,6 @@ PLANES = "world/plane_pairs.cpp"
 AROUND_POINT = "queries/around_point.h"
 CLOUD = "maps/cloud_cells.cpp"
 DISTANCES = "maps/distance_blocks.cpp"
-TOUCH = "maps/touch_table.cpp"
 PAST = "history/history.cpp"
 PAST_PARTS = "history/kept_parts.cpp"
 PAST_RECORD = "history/snapshot_record.cpp"
@@ -184,12 +182,6 @@ CORE = [
      "low_[axis] = lowest[size_ / 100]", "low_[axis] = lowest[0]"),
     ("a tree of a layer is used after a box was withdrawn", LAYER,
      "++changes_;\n  ++withdrawn_;", "++withdrawn_;"),
-    ("a line is tested in a tree without room for rounding", TREE_BODY,
-     "(around + (1e-6f * length + 6.1e-8f * __builtin_fabsf(start[i])))", "around"),
-    ("the start of a line is rounded without room for it in a tree", TREE_BODY,
-     " + 6.1e-8f * __builtin_fabsf(start[i])", ""),
-    ("a sphere is tested in a tree without room for rounding", TREE_BODY,
-     "2.5e-7f * __builtin_fabsf(numbers[i])", "0.0f * numbers[i]"),
     ("a change of a loose box leaves the trees valid", "broadphase/hgrid/engine.h",
      " + changesOf(kLoose)", ""),
     ("a search for pairs does not sort the table", PAIRS,
@@ -212,10 +204,6 @@ CORE = [
      "  entry.box = box;\n  extend(level, box);", "  entry.box = box;"),
     ("cells near the end of a slice are not visited", LOOSE,
      "(slice + 1 + 1e-6) * edge", "(slice + 0.5) * edge"),
-    ("a line of step -0 enters a box of a tree where it leaves it", TREE_BODY,
-     "line->inverse[i] < 0.0f", "step[i] < 0.0f"),
-    ("a node with many nodes below has only one block", "broadphase/hgrid/query_tree.cpp",
-     "(blocks > 1 ? kernels::BoxTree::kTwoBlocks : 0u)", "0u"),
     ("a bit answers for too few coarse cells", "broadphase/hgrid/occupancy.cpp",
      "bits | bits >> 1", "bits"),
     ("a change of a rare shape ends a plan", "broadphase/hgrid/layer_plan.cpp",
@@ -439,10 +427,6 @@ CORE = [
      "reach + allFour(padding_)", "reach"),
     ("voxels in one layer around a block are not seen", DISTANCES, "box.min()[k] = (first[axis] - kMargin) * edge();",
      "box.min()[k] = (first[axis] - kMargin + 1.5) * edge();"),
-    ("the last bricks of the array are not looked at", TOUCH,
-     "std::min(last, end - 1.0)", "std::min(last, end - 2.0)"),
-    ("a sphere that just reaches the nearest brick with voxels is free", TOUCH,
-     "static_cast<std::uint32_t>(reach) < middle - kEmpty", "static_cast<std::uint32_t>(reach) <= middle - kEmpty"),
     ("a cell that a sensor sees again expires too early", CLOUD,
      "newest = std::max(newest, (known++)->stamp);", "newest = (known++)->stamp;"),
     ("a coordinate just below zero is put into the cell above", CLOUD,

@@ -39,19 +39,6 @@ struct NearHit {
   double distance = 0.0;  ///< [m] distance of the box from the point; 0 if the point is inside the box
 };
 
-/// The answers to many queries, as a structure of arrays. The answers to query q are found[begin[q]] ..
-/// found[begin[q] + count[q] - 1], in the same order as the answers to a single query.
-template <class Found>
-struct BatchOf {
-  std::vector<std::uint32_t> begin;  ///< for each query: index in `found` of its first answer
-  std::vector<std::uint32_t> count;  ///< for each query: number of its answers
-  std::vector<Found> found;          ///< the answers
-};
-/// The answers to many queries for the ids of boxes.
-using IdBatch = BatchOf<ProxyId>;
-/// The answers to many segment queries.
-using SegmentBatch = BatchOf<SegmentHit>;
-
 /// One level of a broad phase that sorts boxes by size.
 struct BroadPhaseLevel {
   double edge = 0.0;      ///< [m] longest side that a box of the level can have; infinite for the last level
@@ -87,19 +74,6 @@ class BroadPhaseReader {
   /// Finds the `count` boxes nearest to a point that are at most `limit` [m] away, sorted by distance, then by id.
   virtual void nearest(const Eigen::Vector3d& point, std::size_t count, double limit,
                        std::vector<NearHit>& found) const = 0;
-
-  /// Prepares for many queries before the next change of the stored boxes. This makes the next queries faster and
-  /// changes no answer. A broad phase that gains nothing from it does nothing. Other threads may call functions of this
-  /// class meanwhile.
-  /// @throws std::bad_alloc  then only a part may be prepared, and all answers stay right
-  virtual void prepareQueries() const {}
-
-  ///@{
-  /// Answers many queries in one call. The default implementation answers them one after another.
-  virtual void overlapping(const std::vector<Aabb>& boxes, IdBatch& found) const;
-  virtual void overlapping(const std::vector<Sphere>& spheres, IdBatch& found) const;
-  virtual void along(const std::vector<Segment>& segments, SegmentBatch& found) const;
-  ///@}
 
   /// Returns the levels, from small boxes to large ones; nothing if the broad phase does not sort boxes by size. Takes
   /// time proportional to the number of stored boxes.

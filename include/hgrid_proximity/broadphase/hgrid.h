@@ -84,18 +84,6 @@ class HGrid final : public BroadPhase {
   void along(const Segment& segment, std::vector<SegmentHit>& found) const override;
   void nearest(const Eigen::Vector3d& point, std::size_t count, double limit,
                std::vector<NearHit>& found) const override;
-  /// Builds trees of bounding volumes, one for the fixed boxes, one for the resting ones and one for those that moved
-  /// lately, where there is no valid tree yet. All queries use the valid trees. A tree is valid until a box of its part
-  /// is added, moved or removed. Building takes about as long as 10 to 50 bulk updates, and the trees need 28 to 50
-  /// bytes per box, so it pays for about as many queries as there are boxes. It pays most where space is mostly empty.
-  /// Answers with hundreds of ids may take longer with trees.
-  void prepareQueries() const override;
-  ///@{
-  /// Processes the queries in the order of their coordinates, which saves cache misses.
-  void overlapping(const std::vector<Aabb>& boxes, IdBatch& found) const override;
-  void overlapping(const std::vector<Sphere>& spheres, IdBatch& found) const override;
-  void along(const std::vector<Segment>& segments, SegmentBatch& found) const override;
-  ///@}
   /// Returns GridScale::kLevels size classes and one more for the boxes that are too large for the largest of them.
   /// Several classes may share a level of the grid, so these are not the levels that a search visits.
   std::vector<BroadPhaseLevel> levels() const override;

@@ -48,8 +48,8 @@ struct Portal {
 /// - A portal is a box and not a polygon. It contains the whole thickness of the wall, so an object inside the opening
 ///   is in both rooms.
 /// - There is no traversal from room to room. To locate a box, roomsOf() tests all rooms and all portals.
-/// - The book tests an object against the objects of its cells. Here a broad phase below finds all overlapping pairs,
-///   and RoomLayer leaves out those without a common room.
+/// - The book tests an object against the objects of its cells. Here a broad phase finds all overlapping pairs, and
+///   BodyRooms leaves out those of bodies without a common room.
 class Building {
  public:
   static constexpr std::size_t kMostRooms = 4096;  ///< largest number of rooms

@@ -81,7 +81,6 @@ class StaticGrid {
   void visitNear(const Eigen::AlignedBox3d& box, double limit, const Look& look) const;
 
  private:
-  friend class TouchTable;
   double finest_edge_;
   std::size_t size_;
   Eigen::AlignedBox3d bounds_;

@@ -49,7 +49,6 @@ void HGrid::Engine::reserveLayer(LayerNumber layer, std::size_t count) {
 void HGrid::Engine::sortLayer(LayerNumber layer) {
   layers[layer].sort(boxes, finest_edge, machine());
   located[layer] = false;
-  if (layer == kLoose) ++loose_version;
 }
 
 void HGrid::Engine::locate(LayerNumber layer) {
@@ -107,10 +106,7 @@ void HGrid::Engine::takeOut(ProxyId id) {
     if (!isHashed()) emptyLooseLayer();
   } else {
     locate(from);
-    if (from == kLoose) {
-      members[kLoose].erase(std::find(members[kLoose].begin(), members[kLoose].end(), id));
-      ++loose_version;
-    }
+    if (from == kLoose) members[kLoose].erase(std::find(members[kLoose].begin(), members[kLoose].end(), id));
     layers[from].withdraw(positions()[id]);
     ++withdrawn;
     moving_changed = moving_changed || from == kMoving;
@@ -140,7 +136,6 @@ bool HGrid::Engine::moveSingle(ProxyId id, const Aabb& box) {
 
 void HGrid::Engine::singlesChanged() {
   loose_sorted = false;
-  ++loose_version;
 }
 
 void HGrid::Engine::settleLoose() {

@@ -11,7 +11,6 @@
 
 #include "broadphase/hgrid/layer.h"
 #include "broadphase/hgrid/loose_boxes.h"
-#include "broadphase/hgrid/query_tree.h"
 #include "broadphase/hgrid/region_search.h"
 #include "broadphase/hgrid/search_tasks.h"
 #include "hgrid_proximity/broadphase/hgrid.h"
@@ -120,8 +119,8 @@ struct HGrid::Engine {
   bool isSingle(ProxyId id) const { return layer_of[id] == kLoose && isHashed(); }
   /// Moves a box that is in the table and may stay there. @returns whether it did
   bool moveSingle(ProxyId id, const Aabb& box);
-  /// Whether the boxes of the table should join the moving boxes: a search for pairs has sorted many of them, or queries
-  /// spent more time in the table than sorting takes.
+  /// Whether the boxes of the table should join the moving boxes: a search for pairs has sorted many of them, or
+  /// queries spent more time in the table than sorting takes.
   bool singlesSettle() const {
     return (loose_sorted && singles.size() >= kMostLoose) ||
            singles.excess() > kSortingWork * (members[kMoving].size() + singles.size());
@@ -148,7 +147,6 @@ struct HGrid::Engine {
   mutable std::array<Layer, kLayers> layers;  // sortLoose() changes the loose layer
   std::array<std::vector<ProxyId>, kLayers> members;  // ids of the moving boxes, and of the loose boxes in no table
   LooseBoxes singles;                                 // the loose boxes; positions() has their places
-  std::uint64_t loose_version = 1;                    // number of changes of the loose boxes
   mutable std::atomic<bool> loose_sorted{true};       // whether the loose layer has the boxes of the table
   mutable std::mutex loose_mutex;                     // protects the sorting by sortLoose()
   mutable SortScratch loose_scratch;                  // used by sortLoose() only
@@ -184,30 +182,6 @@ struct HGrid::Engine {
   bool collectPairs(std::vector<ProxyPair>& pairs) const;
   mutable std::mutex search_mutex;
   mutable SearchBuffers buffers;
-
-  // Trees for queries (queries.cpp). A tree is valid if its layer has not changed since it was built.
-  /// Builds a tree for each layer that has boxes but no valid tree.
-  void prepareQueries() const;
-  /// Returns the number of changes of the boxes of a layer. Those of the loose layer are counted apart, because a
-  /// search may sort this layer without a change of its boxes.
-  std::uint64_t changesOf(std::size_t layer) const { return layer == kLoose ? loose_version : layers[layer].changes(); }
-  /// Returns the tree of a layer; null if there is no valid one.
-  const QueryTree* treeOf(std::size_t layer) const {
-    return tree_changes[layer].load(std::memory_order_acquire) == changesOf(layer) ? &trees[layer] : nullptr;
-  }
-  /// Returns the number of changes of all layers.
-  std::uint64_t changes() const {
-    return changesOf(kFixed) + changesOf(kResting) + changesOf(kMoving) + changesOf(kLoose);
-  }
-  /// Returns whether each layer that has boxes has a valid tree. Then `prepared` names these layers.
-  bool isPrepared() const { return prepared_changes.load(std::memory_order_acquire) == changes(); }
-  mutable std::mutex tree_mutex;  // protects the building of trees
-  mutable std::array<QueryTree, kLayers> trees;
-  mutable std::array<std::atomic<std::uint64_t>, kLayers> tree_changes{};  // changes() of each layer when its tree was
-                                                                           // built; 0 if it was never built
-  mutable std::array<std::uint8_t, kLayers> prepared{};                    // the layers that have boxes
-  mutable std::size_t prepared_count = 0;                                  // number of them
-  mutable std::atomic<std::uint64_t> prepared_changes{0};  // changes() when all layers had trees; 0 if never
 };
 
 }  // namespace hgrid

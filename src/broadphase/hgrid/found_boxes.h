@@ -9,7 +9,6 @@
 #include "broadphase/hgrid/layer.h"
 #include "broadphase/hgrid/loose_boxes.h"
 #include "broadphase/hgrid/position_writer.h"
-#include "broadphase/hgrid/query_tree.h"
 #include "hgrid_proximity/geometry/segment.h"
 #include "hgrid_proximity/geometry/sphere.h"
 
@@ -53,23 +52,7 @@ inline kernels::Line lineOf(const Segment& segment) {
   return line;
 }
 
-// Each searchTree() writes the slots of the boxes of a tree that may touch the query. It returns false if the numbers
-// of the query are too large for trees. Each searchLayer() searches the levels of a layer and writes positions.
-inline bool searchTree(const kernels::Kernels& loops, const kernels::BoxTree& tree, const kernels::Box& query,
-                       kernels::PositionSink* sink) {
-  loops.overlappingInTree(&tree, &query, sink);
-  return true;
-}
-inline bool searchTree(const kernels::Kernels& loops, const kernels::BoxTree& tree, const Sphere& query,
-                       kernels::PositionSink* sink) {
-  static_assert(sizeof(Sphere) == 4 * sizeof(double), "the radius follows the center");
-  return loops.nearInTree(&tree, query.center.data(), sink);
-}
-inline bool searchTree(const kernels::Kernels& loops, const kernels::BoxTree& tree, const Segment& query,
-                       kernels::PositionSink* sink) {
-  static_assert(sizeof(Segment) == 7 * sizeof(double), "the end and the radius follow the start");
-  return loops.alongInTree(&tree, query.from.data(), sink);
-}
+// Each searchLayer() searches the levels of a layer and writes positions.
 inline void searchLayer(const kernels::Kernels& loops, const Layer& layer, const kernels::Box& query,
                         kernels::PositionSink* sink) {
   const kernels::LevelSet levels = layer.querySet();
@@ -100,25 +83,12 @@ inline void searchSingles(const LooseBoxes& boxes, const Segment& query, kernels
   boxes.along(lineOf(query), sink);
 }
 
-// The functions for queries into empty space are inlined and those for all others are not, because calls and what they
-// need would take a part of the time.
-
-/// Searches the trees of all layers, which must be valid. Returns false if the query is too large for trees.
+/// Calls visit(boxes, places) for each layer in which a search finds boxes. `boxes` is a Layer and the places are
+/// positions, or it is LooseBoxes, which are searched in place of the loose layer. Both have the functions boxAt(place)
+/// and idAt(place).
+/// @param query  a box, a sphere or a segment. The search may find a few boxes more than those that touch it
 template <class Engine, class Query, class Visit>
-inline __attribute__((always_inline)) bool visitTrees(const Engine& engine, const Query& query, const Visit& visit) {
-  for (std::size_t i = 0; i < engine.prepared_count; ++i) {
-    const QueryTree& tree = engine.trees[engine.prepared[i]];
-    PositionWriter writer;
-    if (!searchTree(*engine.loops, tree.view(), query, writer.sink())) return false;
-    if (writer.size() != 0) visit(tree, writer);
-  }
-  return true;
-}
-
-/// Searches each layer: its tree if there is a valid one, else its levels. Searches the table in place of the loose
-/// layer if the loose boxes are in it.
-template <class Engine, class Query, class Visit>
-__attribute__((noinline)) void visitLayers(const Engine& engine, const Query& query, const Visit& visit) {
+__attribute__((noinline)) void visitFound(const Engine& engine, const Query& query, const Visit& visit) {
   for (std::size_t number = 0; number < engine.layers.size(); ++number) {
     PositionWriter writer;
     if (number == Engine::kLoose && engine.isHashed()) {
@@ -128,24 +98,9 @@ __attribute__((noinline)) void visitLayers(const Engine& engine, const Query& qu
     }
     const Layer& layer = engine.layers[number];
     if (layer.isEmpty()) continue;
-    const QueryTree* const tree = engine.treeOf(number);
-    if (tree != nullptr && searchTree(*engine.loops, tree->view(), query, writer.sink())) {
-      if (writer.size() != 0) visit(*tree, writer);
-    } else {
-      searchLayer(*engine.loops, layer, query, writer.sink());
-      if (writer.size() != 0) visit(layer, writer);
-    }
+    searchLayer(*engine.loops, layer, query, writer.sink());
+    if (writer.size() != 0) visit(layer, writer);
   }
-}
-
-/// Calls visit(boxes, places) for each layer in which a search finds boxes. `boxes` is a Layer and the places are
-/// positions, or it is a QueryTree and they are slots, or it is LooseBoxes. All of them have the functions boxAt(place)
-/// and idAt(place).
-/// @param query  a box, a sphere or a segment. The search may find a few boxes more than those that touch it
-template <class Engine, class Query, class Visit>
-inline __attribute__((always_inline)) void visitFound(const Engine& engine, const Query& query, const Visit& visit) {
-  if (engine.isPrepared() && visitTrees(engine, query, visit)) return;
-  visitLayers(engine, query, visit);
 }
 
 }  // namespace hgrid

@@ -252,8 +252,6 @@ std::size_t HGrid::bytes() const {
                     e.scratch.copies.capacity() * sizeof(Aabb) +
                     (e.scratch.cells.capacity() + e.scratch.counts.capacity()) * sizeof(std::uint32_t);
   for (const Layer& layer : e.layers) sum += layer.bytes();
-  const std::lock_guard<std::mutex> lock(e.tree_mutex);  // another thread may build trees
-  for (const QueryTree& tree : e.trees) sum += tree.bytes();
   sum += e.singles.bytes();
   for (const std::vector<ProxyId>& ids : e.members) sum += ids.capacity() * sizeof(ProxyId);
   return sum;
@@ -282,7 +280,6 @@ void HGrid::checkInvariants() const {
     if (number == Engine::kLoose && e.isHashed()) continue;
     const Layer& layer = e.layers[number];
     layer.checkInvariants(e.boxes);
-    if (layer.size() > 0 && e.treeOf(number) != nullptr) e.treeOf(number)->checkInvariants(layer);
     for (std::uint32_t i = 0; i < layer.size(); ++i) {
       if (layer.isWithdrawn(i)) continue;
       const ProxyId id = layer.ids()[i];

@@ -96,7 +96,6 @@ void Layer::point() {
 }
 
 void Layer::withdraw(std::uint32_t position) {
-  ++changes_;
   ++withdrawn_;
   // The minimum corner remains, because pairsWithin() computes the row of the position from it. If the minimum corner
   // changed, pairsWithin() would search beyond that row.
@@ -105,7 +104,6 @@ void Layer::withdraw(std::uint32_t position) {
 
 bool Layer::putBack(std::uint32_t position, const Aabb& box) {
   if (!isWithdrawn(position) || !fits(position, box)) return false;
-  ++changes_;
   --withdrawn_;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     bounds_[axis * stride_ + position] = box.min[static_cast<int>(axis)];

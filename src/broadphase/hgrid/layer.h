@@ -80,8 +80,6 @@ class Layer {
   /// Returns the id of the box at each position.
   const ProxyId* ids() const { return ids_.data(); }
   ProxyId idAt(std::uint32_t position) const { return ids_[position]; }
-  /// Returns how often the boxes of the layer changed.
-  std::uint64_t changes() const { return changes_; }
   /// Returns the box at a position.
   Aabb boxAt(std::uint32_t position) const {
     const float* bound = bounds_.data() + position;
@@ -139,7 +137,6 @@ class Layer {
   void scatter(const std::vector<Aabb>& boxes, const Machine& machine, std::size_t threads);
   void describe(const SortScratch& scratch);
 
-  std::uint64_t changes_ = 0;
   LayerPlan plan_;
   int sorts_with_plan_ = 0;
   std::size_t count_ = 0;

@@ -24,7 +24,6 @@ constexpr double kLessCrowded = 0.6;  // regions are used if they reduce crowdin
 }  // namespace
 
 void Layer::sort(const std::vector<Aabb>& boxes, double finest_edge, const Machine& machine) {
-  ++changes_;
   withdrawn_ = 0;
   if (count_ == 0) {
     plan_.clear();

@@ -96,101 +96,7 @@ inline void answer(const Engine& engine, const Aabb& query, std::vector<ProxyId>
   answer(engine, boxOf(query), found);
 }
 
-Eigen::Vector3f positionOf(const Aabb& box) { return box.min; }
-Eigen::Vector3f positionOf(const Sphere& sphere) { return sphere.center.cast<float>(); }
-Eigen::Vector3f positionOf(const Segment& segment) { return segment.from.cast<float>(); }
-
-/// Assigns points in space to buckets. The buckets are the regions of a layer. If the layer has only one region, the
-/// buckets are the cells of a coarse grid.
-class Buckets {
- public:
-  explicit Buckets(const Layer& layer) : layer_(layer), grid_(layer.levels().front().grid) {}
-
-  std::size_t size() const {
-    return layer_.isDivided() ? layer_.regions().size() : static_cast<std::size_t>(kAcross * kAcross * kAcross);
-  }
-  /// Returns the index of the bucket that a point [m] belongs to.
-  std::uint32_t at(const Eigen::Vector3f& position) const {
-    if (layer_.isDivided()) return layer_.regions().regionOf(position.data());
-    std::uint32_t bucket = 0;
-    for (const int axis : {2, 1, 0}) {
-      const float share =
-          (position[axis] * grid_.inverse[axis] - grid_.origin[axis]) * (kAcross / (grid_.last[axis] + 1.0f));
-      const float number = std::min(share > 0.0f ? share : 0.0f, kAcross - 1.0f);  // 0 if `share` is NaN
-      bucket = bucket * static_cast<std::uint32_t>(kAcross) + static_cast<std::uint32_t>(number);
-    }
-    return bucket;
-  }
-
- private:
-  static constexpr float kAcross = 16.0f;
-  const Layer& layer_;
-  const kernels::Grid& grid_;
-};
-
-/// Returns the indices of the queries, sorted by the buckets of positionOf(query). So queries that need the same boxes
-/// follow each other.
-template <class Query>
-std::vector<std::uint32_t> byPosition(const std::vector<Query>& queries, const Layer& layer) {
-  const Buckets buckets(layer);
-  std::vector<std::uint32_t> next(buckets.size() + 1, 0), bucket_of(queries.size()), order(queries.size());
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    bucket_of[i] = buckets.at(positionOf(queries[i]));
-    ++next[bucket_of[i] + 1];
-  }
-  for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
-  for (std::uint32_t i = 0; i < queries.size(); ++i) order[next[bucket_of[i]]++] = i;
-  return order;
-}
-
-/// Answers many queries. If the boxes do not fit into the cache, answers the queries in the order of byPosition().
-template <class Engine, class Query, class Found>
-void answerAll(const Engine& engine, const std::vector<Query>& queries, BatchOf<Found>& batch) {
-  constexpr std::size_t kFitsTheCache = std::size_t{1} << 18;  // with fewer boxes, sorting the queries does not pay
-  constexpr std::size_t kAhead = 8;                            // how many queries before its turn a query is prefetched
-  batch.begin.resize(queries.size());
-  batch.count.resize(queries.size());
-  batch.found.clear();
-  // Not the loose layer: another thread may sort it now.
-  const Layer& largest = *std::max_element(engine.layers.begin(), engine.layers.begin() + Engine::kLoose,
-                                           [](const Layer& a, const Layer& b) { return a.size() < b.size(); });
-  const auto answerOne = [&](std::size_t i) {
-    batch.begin[i] = static_cast<std::uint32_t>(batch.found.size());
-    answer(engine, queries[i], batch.found);
-    batch.count[i] = static_cast<std::uint32_t>(batch.found.size()) - batch.begin[i];
-  };
-  if (largest.size() < kFitsTheCache) {
-    for (std::size_t i = 0; i < queries.size(); ++i) answerOne(i);
-  } else {
-    const std::vector<std::uint32_t> order = byPosition(queries, largest);
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      const char* const ahead = reinterpret_cast<const char*>(&queries[order[std::min(k + kAhead, order.size() - 1)]]);
-      __builtin_prefetch(ahead);
-      __builtin_prefetch(ahead + sizeof(Query) - 1);
-      answerOne(order[k]);
-    }
-  }
-}
-
 }  // namespace
-
-void HGrid::Engine::prepareQueries() const {
-  const std::lock_guard<std::mutex> lock(tree_mutex);
-  if (isPrepared()) return;
-  sortLoose();
-  for (std::size_t number = 0; number < layers.size(); ++number) {
-    if (layers[number].size() == 0 || treeOf(number) != nullptr) continue;
-    trees[number].build(layers[number]);
-    tree_changes[number].store(changesOf(number), std::memory_order_release);
-  }
-  prepared_count = 0;  // no query reads it now, because isPrepared() is false
-  for (std::size_t number = 0; number < layers.size(); ++number) {
-    if (layers[number].size() != 0) prepared[prepared_count++] = static_cast<std::uint8_t>(number);
-  }
-  prepared_changes.store(changes(), std::memory_order_release);
-}
-
-void HGrid::prepareQueries() const { engine_->prepareQueries(); }
 
 void HGrid::overlapping(const Aabb& box, std::vector<ProxyId>& found) const {
   found.clear();
@@ -205,16 +111,6 @@ void HGrid::overlapping(const Sphere& sphere, std::vector<ProxyId>& found) const
 void HGrid::along(const Segment& segment, std::vector<SegmentHit>& found) const {
   found.clear();
   answer(*engine_, segment, found);
-}
-
-void HGrid::overlapping(const std::vector<Aabb>& boxes, IdBatch& found) const { answerAll(*engine_, boxes, found); }
-
-void HGrid::overlapping(const std::vector<Sphere>& spheres, IdBatch& found) const {
-  answerAll(*engine_, spheres, found);
-}
-
-void HGrid::along(const std::vector<Segment>& segments, SegmentBatch& found) const {
-  answerAll(*engine_, segments, found);
 }
 
 }  // namespace hgrid

@@ -92,26 +92,6 @@ struct Line {
   double around;
 };
 
-/// Up to 16 boxes of a BoxTree, with what is below each of them.
-struct alignas(64) TreeBlock {
-  static constexpr std::uint32_t kBoxes = 16;
-  float bounds[6][kBoxes];      ///< [m] min x, min y, min z, max x, max y, max z; +inf and -inf in unused lanes
-  std::uint32_t below[kBoxes];  ///< in inner blocks: the node that each box bounds; in leaves: the id of each box
-};
-
-/// A tree of bounding volumes (Ericson 2005, chapter 6) over boxes. Each node is one or two blocks. Below a node with
-/// two blocks are only leaves, unless it is the root. A leaf has one block. A node is a number: its index << kShift,
-/// plus kLeaf and kTwoBlocks where they apply. The index is that of its first block.
-struct BoxTree {
-  static constexpr std::uint32_t kLeaf = 1, kTwoBlocks = 2;
-  static constexpr int kShift = 2;
-  static constexpr int kMostDepth = 20;  ///< largest number of nodes from the root to a leaf
-  const TreeBlock* inner;
-  const TreeBlock* leaves;
-  std::uint32_t root;
-  float slack;  ///< [m] how much a query grows, so that rounding cannot lose a box
-};
-
 /// A buffer that kernels write their results to. They write at `next` and advance `next`. If fewer than 16 places are
 /// left before `limit`, they first call `grow`, and `grow` makes room.
 template <class Found>
@@ -189,14 +169,6 @@ struct Kernels {
   void (*overlapping)(const LevelSet* set, const Box* box, PositionSink* sink);
   /// Finds all boxes within the radius `around` of a line, and a few boxes more. Writes their positions.
   void (*along)(const LevelSet* set, const Line* line, PositionSink* sink);
-  /// Finds the boxes of a tree that overlap `box`. Writes their slots: 16 * index of the leaf + lane.
-  void (*overlappingInTree)(const BoxTree* tree, const Box* box, PositionSink* sink);
-  /// Finds all boxes of a tree that touch a sphere, and a few boxes more. Writes their slots. Returns false, without a
-  /// search, if the radius is 1e30 m or more. @param sphere  [m] x, y, z, radius
-  bool (*nearInTree)(const BoxTree* tree, const double* sphere, PositionSink* sink);
-  /// Works like nearInTree() for a swept segment. Returns false if the radius exceeds about 1e12 m or a coordinate
-  /// about 1e23 m. @param segment  [m] start, end, radius: 7 numbers
-  bool (*alongInTree)(const BoxTree* tree, const double* segment, PositionSink* sink);
 };
 
 /// Returns the inner loops for an instruction set. isSupported(isa) must be true.

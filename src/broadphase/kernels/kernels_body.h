@@ -11,14 +11,12 @@
 #include "broadphase/kernels/line_body.h"
 #include "broadphase/kernels/pairs_body.h"
 #include "broadphase/kernels/sorting_body.h"
-#include "broadphase/kernels/tree_body.h"
 
 namespace hgrid {
 namespace kernels {
 namespace {
 
-constexpr Kernels kKernels = {sound,       key,   keyRegions,        pairsWithin, pairsAcross, reaching,
-                              overlapping, along, overlappingInTree, nearInTree,  alongInTree};
+constexpr Kernels kKernels = {sound, key, keyRegions, pairsWithin, pairsAcross, reaching, overlapping, along};
 
 }  // namespace
 }  // namespace kernels

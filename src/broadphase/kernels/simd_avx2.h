@@ -94,8 +94,6 @@ struct SimdAvx2 : SimdSse2 {
   static Lanes timesPlus(Lanes a, Lanes b, Lanes c) { return _mm256_fmadd_ps(a, b, c); }
   static Lanes timesMinus(Lanes a, Lanes b, Lanes c) { return _mm256_fmsub_ps(a, b, c); }
   static Lanes size(Lanes a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a); }
-  static Lanes lower(Lanes a, Lanes b) { return _mm256_min_ps(a, b); }
-  static Lanes higher(Lanes a, Lanes b) { return _mm256_max_ps(a, b); }
   using Mask = __m256;
   static Mask notGreater(Lanes a, Lanes b) { return _mm256_cmp_ps(a, b, _CMP_NGT_UQ); }
   static Mask both(Mask a, Mask b) { return _mm256_and_ps(a, b); }

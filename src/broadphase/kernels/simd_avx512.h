@@ -73,8 +73,6 @@ struct SimdAvx512 : SimdSse2 {
   static Lanes timesPlus(Lanes a, Lanes b, Lanes c) { return _mm512_fmadd_ps(a, b, c); }
   static Lanes timesMinus(Lanes a, Lanes b, Lanes c) { return _mm512_fmsub_ps(a, b, c); }
   static Lanes size(Lanes a) { return _mm512_abs_ps(a); }
-  static Lanes lower(Lanes a, Lanes b) { return _mm512_min_ps(a, b); }
-  static Lanes higher(Lanes a, Lanes b) { return _mm512_max_ps(a, b); }
   using Mask = __mmask16;
   static Mask notGreater(Lanes a, Lanes b) { return _mm512_cmp_ps_mask(a, b, _CMP_NGT_UQ); }
   static Mask both(Mask a, Mask b) { return _kand_mask16(a, b); }

@@ -113,8 +113,6 @@ struct SimdNeon {
   static Lanes timesPlus(Lanes a, Lanes b, Lanes c) { return vfmaq_f32(c, a, b); }
   static Lanes timesMinus(Lanes a, Lanes b, Lanes c) { return vnegq_f32(vfmsq_f32(c, a, b)); }
   static Lanes size(Lanes a) { return vabsq_f32(a); }
-  static Lanes lower(Lanes a, Lanes b) { return vbslq_f32(vcltq_f32(a, b), a, b); }
-  static Lanes higher(Lanes a, Lanes b) { return vbslq_f32(vcgtq_f32(a, b), a, b); }
   using Mask = uint32x4_t;  // inverted, because NEON has no comparison "not greater": bits with value 1 mean false
   static Mask notGreater(Lanes a, Lanes b) { return vcgtq_f32(a, b); }
   static Mask both(Mask a, Mask b) { return vorrq_u32(a, b); }

@@ -142,14 +142,6 @@ struct SimdPortable {
   static Lanes size(const Lanes& a) {
     return each(a, a, [](float x, float) { return x < 0.0f ? -x : x; });
   }
-  /// Returns the smaller value for each lane, or b if one of them is NaN.
-  static Lanes lower(const Lanes& a, const Lanes& b) {
-    return each(a, b, [](float x, float y) { return x < y ? x : y; });
-  }
-  /// Returns the larger value for each lane, or b if one of them is NaN.
-  static Lanes higher(const Lanes& a, const Lanes& b) {
-    return each(a, b, [](float x, float y) { return x > y ? x : y; });
-  }
   /// A truth value for each lane.
   using Mask = std::uint32_t;
   /// Returns !(a > b) for each lane. It is true where a or b is NaN.

@@ -90,8 +90,6 @@ struct SimdSse2 {
   static Lanes timesPlus(Lanes a, Lanes b, Lanes c) { return plus(times(a, b), c); }
   static Lanes timesMinus(Lanes a, Lanes b, Lanes c) { return minus(times(a, b), c); }
   static Lanes size(Lanes a) { return _mm_andnot_ps(_mm_set1_ps(-0.0f), a); }
-  static Lanes lower(Lanes a, Lanes b) { return _mm_min_ps(a, b); }
-  static Lanes higher(Lanes a, Lanes b) { return _mm_max_ps(a, b); }
   using Mask = __m128;
   static Mask notGreater(Lanes a, Lanes b) { return _mm_cmpngt_ps(a, b); }
   static Mask both(Mask a, Mask b) { return _mm_and_ps(a, b); }
