@@ -53,7 +53,7 @@ Workload freeBodies(std::size_t count, std::size_t moving, double rate) {
   workload.params["rate"] = rate;
   workload.params["heartbeat"] = std::min(20.0, 0.5 * rate);  // at ~rate, ticks would not wait for the data
   workload.params["valid_for"] = 1.0;                         // longer than the pauses between heartbeats
-  workload.params["max_frames"] = static_cast<int>(count + 10);
+  workload.params["limits"]["max_frames"] = static_cast<int>(count + 10);
   workload.params["accept_uncovered"][0]["pattern"] = "robot/*";  // the robot has no shapes
   workload.params["accept_uncovered"][0]["reason"] = "it has no geometry";
   workload.descriptions["robot_description"] = "<robot name='nobody'><link name='world'/></robot>";

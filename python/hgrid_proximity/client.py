@@ -79,7 +79,7 @@ class Proximity:
     exact: True: measure the shapes of bodies; False: measure only the boxes of the shapes
     include, exclude: a glob over body names, or several of them: only bodies that match `include` and do not match
         `exclude` can be hit. A glob of `include` that matches no body is refused.
-    limit: largest number of hits; 0: ~max_hits, but 1 for query_nearest
+    limit: largest number of hits; 0: ~limits/max_hits, but 1 for query_nearest
     max_time: [s] time limit of the node for the query; 0: none. The client waits for `timeout + max_time`.
     as_body: name of a body. The query ignores this body and all bodies that it is allowed to touch.
 
@@ -212,7 +212,7 @@ class Proximity:
         @param bodies  names of bodies: which other bodies are nearest to each of them?
         @param max_distance  [m] for points and bodies: bodies that are farther away cannot be hit; 0: no limit
         @param lease  `response.lease` of an earlier answer: asks about the same state of the world; None: the newest
-        @param keep  [s] how long the node should keep this state of the world for later requests, at most ~lease_max
+        @param keep  [s] how long the node should keep this state of the world for later requests, at most ~limits/lease_max
         @param options  the options of all queries, with two differences: `limit` is for each question, and 0 means 1;
             `max_time` is for all questions together, and 0 or more than 10 means 10 s
 
@@ -398,7 +398,7 @@ class Proximity:
             matches `second`; empty: all names
         @param rules  True: list the rules as they were given instead; the globs are compared with their texts
         @param as_srdf  True: `srdf` holds the pairs within one robot as SRDF text
-        @param limit  largest number of entries; 0: ~max_pairs. `total` counts all, `truncated` says whether some are missing
+        @param limit  largest number of entries; 0: ~limits/max_pairs. `total` counts all, `truncated` says whether some are missing
         @throws Refused  a glob is too long, or too many pairs would have to be examined
         """
         request = srv.GetAllowedRequest(first=first, second=second, rules=rules, as_srdf=as_srdf, limit=limit)

@@ -20,7 +20,7 @@ from tf2_msgs.msg import TFMessage  # noqa: E402
 STALLED = 8  # subscribers that read nothing
 PILE = 1000  # number of obstacles at one place; ~pairs then has megabytes per second
 ENOUGH = 5 * GROWTH  # [MB] data that a topic must send; the test would notice if the node stored so much
-EVENT_QUEUE = 10  # ~event_queue
+EVENT_QUEUE = 10  # ~limits/event_queue
 FAR = (-10.0, 0.0, 0.0)  # [m] a place far from the pile
 STOPPED = 10.0  # [s] how long the node is stopped
 
@@ -171,7 +171,7 @@ def check_stopped_node(cell):
 
 
 def stopped(cell, rng, seconds):
-    cell.begin(obstacles=pile(), rate=100, follow_data=False, event_queue=EVENT_QUEUE)
+    cell.begin(obstacles=pile(), rate=100, follow_data=False, limits={"event_queue": EVENT_QUEUE})
     with calm_after(cell):
         check_stalled_subscribers(cell, NAME + "/pairs", Pairs, 1, 0.3 * seconds)
     with calm_after(cell, growth=2 * GROWTH):

@@ -19,7 +19,7 @@ KINDS = ("tf", "tf_static", "poses", "tracks", "cloud", "map", "collision_object
 # An obstacle that messages on ~poses move.
 CART = {"name": "cart", "frame": "~poses", "shapes": [{"type": "sphere", "radius": 0.1}]}
 PEOPLE = {"name": "people", "topic": "/people", "type": "poses", "shapes": [{"type": "sphere", "radius": 0.3}]}
-GROWTH = 80.0 if AUDIT else 30.0  # [MB] the audit also stores messages of /tf (~tf_queue_bytes)
+GROWTH = 80.0 if AUDIT else 30.0  # [MB] the audit also stores messages of /tf (~limits/tf_queue_bytes)
 # Beginnings of the counters of transforms. The node counts each transform in one of them, also those of ~poses.
 DECIDED = ("poses.refused.", "tf.accepted", "tf.refused.", "tf.dropped.", "tf.ignored.", "tf.too_old", "tf.repeated", "tf.rival")
 INPUTS = {  # topic -> beginnings of the names of the counters of its messages

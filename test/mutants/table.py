@@ -551,7 +551,7 @@ NODE = [
      "settled = *time == before;", "settled = true;"),
     ("one stamp ahead of the clock drops all older samples", STORE,
      "std::min(sample.stamp, now + cache_ / 2) - cache_", "sample.stamp - cache_"),
-    ("a late sample exceeds ~max_samples", STORE,
+    ("a late sample exceeds ~limits/max_samples", STORE,
      "const bool filled = histories_[frame].fill(sample);\n  dropped_ += histories_[frame].trim(max_samples_);",
      "const bool filled = histories_[frame].fill(sample);"),
 

@@ -137,7 +137,7 @@ class Batches(unittest.TestCase):
     def test_an_invalid_request_is_refused_by_name(self):
         ask, spheres = self.proximity.query_batch, (self.points(2), 0.1)
         self.assertEqual(len(ask()), 0)
-        self.assert_refused("LIMIT", lambda: ask((self.points(3001), 0.1)), "3001 questions", "3000", "~max_batch")
+        self.assert_refused("LIMIT", lambda: ask((self.points(3001), 0.1)), "3001 questions", "3000", "~limits/max_batch")
         self.assert_refused("LIMIT", lambda: ask((self.points(3000), 0.1), limit=1000), "3000 questions", "1000000")
         self.assert_refused("UNKNOWN_ID", lambda: ask(spheres, include="obstacle/cup"), "obstacle/cup")
         self.assert_refused("UNKNOWN_ID", lambda: ask(spheres, as_body="obstacle/cup"), "obstacle/cup")

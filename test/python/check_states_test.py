@@ -131,14 +131,14 @@ class CheckStates(unittest.TestCase):
         self.assert_refused("UNSUPPORTED", lambda: self.states([[0, 0]], group="carriage"), "carriage", "geometry")
         self.assert_refused("BAD_GEOMETRY", lambda: self.states([[0, 0]], max_clearance=-1.0), "clearance")
         self.assert_refused("OUT_OF_RANGE", lambda: self.states([[0, 0]], max_time=-1.0), "max_time")
-        self.assert_refused("LIMIT", lambda: check(["slide"], numpy.zeros((1001, 1))), "1001", "1000", "~max_batch")
+        self.assert_refused("LIMIT", lambda: check(["slide"], numpy.zeros((1001, 1))), "1001", "1000", "~limits/max_batch")
         self.assert_refused("OUT_OF_RANGE", lambda: self.edges([[0, 0]], [[0, 0]], tolerance=2.0), "tolerance")
         self.assert_refused("OUT_OF_RANGE", lambda: self.edges([[0, 0]], [[0, 0], [0, 1]]), "start has 2 values")
         self.assert_refused("OUT_OF_RANGE", lambda: self.states([[0, 0]], max_clearance=11.0), "max_clearance")
         for rows in ([[0]], [[0, 0, 0]], [0, 0]):
             with self.assertRaises(ValueError):
                 self.states(rows)
-        self.assert_refused("LIMIT", lambda: self.edges(numpy.zeros((1001, 2)), numpy.zeros((1001, 2))), "~max_batch")
+        self.assert_refused("LIMIT", lambda: self.edges(numpy.zeros((1001, 2)), numpy.zeros((1001, 2))), "~limits/max_batch")
 
     def test_edges_have_the_first_contact(self):
         found = self.edges([[0, 0.5], [0, 0.5], [TO_WALL, 0.0]], [[1, 0.5], [3, 0.5], [TO_WALL, 0.5]])
@@ -176,7 +176,7 @@ class CheckStates(unittest.TestCase):
         self.assertTrue(first.clear[0])
         lease = first.response.lease
         self.assertGreater(lease.lasts.to_sec(), 4.0)
-        self.assertLessEqual(lease.lasts.to_sec(), 5.0, "~lease_max")
+        self.assertLessEqual(lease.lasts.to_sec(), 5.0, "~limits/lease_max")
         where = (0.5 * math.cos(1.0), 0.5 * math.sin(1.0), 0.0)
         self.proximity.apply_obstacles(obstacles.add("new", obstacles.sphere(0.1), position=where))
         try:

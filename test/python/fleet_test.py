@@ -136,8 +136,8 @@ class Fleet(unittest.TestCase):
             ("BAD_ID", "cannot be the name of a parameter", [robots.add("amr1", description="a b")]),
             ("NOT_READY", "parameter 'none' is not set", [robots.add("amr1", description="none")]),
             ("PARSE", "", [robots.add("amr1", urdf="<robot>")]),
-            ("LIMIT", "~max_robots is 30", [robots.add([f"a{number}" for number in range(31)], like="first")]),
-            ("LIMIT", "4 * ~max_robots", [robots.absent([str(number) for number in range(121)])]),
+            ("LIMIT", "~limits/max_robots is 30", [robots.add([f"a{number}" for number in range(31)], like="first")]),
+            ("LIMIT", "4 * ~limits/max_robots", [robots.absent([str(number) for number in range(121)])]),
         ):
             with self.subTest(words):
                 first = [] if words.startswith("4 *") else [robots.add("amr0", like="first")]

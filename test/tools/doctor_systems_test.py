@@ -408,7 +408,7 @@ class DoctorSystems(unittest.TestCase):
             "source_incomplete",
             "source_incomplete",
             obstacles=[{**TABLE, "frame": "cart"}],
-            max_pairs=5,
+            limits={"max_pairs": 5},
             margin=1.0,
         )
         self.type(cart[0])

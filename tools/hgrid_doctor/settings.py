@@ -64,11 +64,13 @@ def read_settings(values: Any, node: str) -> Settings:
     values = values if isinstance(values, dict) else {}
     settings = Settings(values=values)
     settings.world_frame = _text(values, "world_frame", "").lstrip("/")
+    limits = values.get("limits")
+    limits = limits if isinstance(limits, dict) else {}
     for name in ("rate", "margin", "stale_after", "lost_after", "max_future"):
-        value = values.get(name)
+        value = limits.get(name) if name == "max_future" else values.get(name)
         if isinstance(value, (int, float)) and not isinstance(value, bool) and value > 0:
             setattr(settings, name, float(value))
-    max_pairs = values.get("max_pairs")
+    max_pairs = limits.get("max_pairs")
     if isinstance(max_pairs, int) and max_pairs > 0:
         settings.max_pairs = max_pairs
     settings.use_visual = [text for text in _list(values, "use_visual") if isinstance(text, str)]

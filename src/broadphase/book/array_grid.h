@@ -27,7 +27,7 @@ class ArrayGrid final : public UniformGrid {
   explicit ArrayGrid(CellRule rule = CellRule::objects) : UniformGrid("ArrayGrid", rule) {}
 
   /// findPairs() uses one bit per pair if all ids are below this number: these bits then take at most 8 kB.
-  /// doc/partitions.md has the figures.
+  /// doc/partition_figures.md has the figures.
   static constexpr std::size_t kMostIdsForBits = 362;
 
  private:

@@ -40,7 +40,7 @@ class Stamps {
 /// Differs from the listing: there are 255 numbers and 255 blocks. The listing has 255 blocks and only the numbers 1 ..
 /// 254, so an object could hold the current number when a query begins.
 ///
-/// No partition uses this class. It is here for comparison: doc/partitions.md has the measured times. It saves 7 bytes
+/// No partition uses this class. It is here for comparison: doc/partition_figures.md has the measured times. It saves 7 bytes
 /// per object, but each query writes count / 255 bytes.
 class SmallStamps {
  public:

@@ -95,12 +95,12 @@ class PoseAudit {
   const BodyPose& pose_;
 };
 
-/// Checks that the time of the tick is at most ~max_sync_wait older than the newest transforms.
+/// Checks that the time of the tick is at most ~limits/max_sync_wait older than the newest transforms.
 /// @param newest  the newest time for which all transforms of a body were known; Time::min() if there is none
 void auditTime(const AuditCase& audited, Time newest, AuditFindings& findings) {
   if (newest == Time::min() || audited.stamp >= newest - nanosecondsOf(audited.max_sync_wait)) return;
   findings.add("the time of the tick is " + secondsOf(audited.stamp) + ", but transforms of " + secondsOf(newest) +
-               " had been read; ~max_sync_wait is " + text(audited.max_sync_wait) + " s");
+               " had been read; ~limits/max_sync_wait is " + text(audited.max_sync_wait) + " s");
 }
 
 }  // namespace
@@ -109,7 +109,7 @@ void auditPoses(const AuditCase& audited, AuditFindings& findings) {
   const RecordedFrames frames(audited);
   std::map<std::string, std::optional<RecordedFrames::Chain>> chains;
   Time newest = Time::min();
-  // The record contains each transform with a later stamp than this: a stamp is at most ~max_future later than the time
+  // The record contains each transform with a later stamp than this: a stamp is at most ~limits/max_future later than the time
   // at which the transform was received.
   const Time explained_from = audited.record_begin + nanosecondsOf(audited.max_future);
   const Time latest = audited.made + nanosecondsOf(audited.max_sync_wait);

@@ -19,7 +19,7 @@
 namespace hgrid {
 namespace {
 
-constexpr double kWindow = 2.0;           // [s] how long transforms are kept, in addition to ~max_sync_wait
+constexpr double kWindow = 2.0;           // [s] how long transforms are kept, in addition to ~limits/max_sync_wait
 constexpr std::uint64_t kMostFiles = 10;  // one run of the node writes at most so many files
 
 /// Lets the calling thread run only while no other thread needs its processor.

@@ -68,8 +68,8 @@ RobotPath Guard::prepared(RobotPath path, Time start, const Tick& tick) const {
   const int most = tick.settings->params.max_batch;
   if (path.points() > static_cast<std::size_t>(most)) {
     throw Refusal(Code::limit, "the path has " + std::to_string(path.points()) + " points; at most " +
-                                   std::to_string(most) + " are allowed (~max_batch). Send fewer points, or raise " +
-                                   "~max_batch");
+                                   std::to_string(most) + " are allowed (~limits/max_batch). Send fewer points, or raise " +
+                                   "~limits/max_batch");
   }
   const LoadedRobot& robot = robotNamed(path.robot, tick);
   for (std::string& joint : path.joints) joint = jointOf(joint, robot.name);

@@ -65,7 +65,7 @@ std::vector<PathAnswer> checkPaths(const RobotPaths& paths, const Tick& tick, co
     PathAnswer answer = walk.clearUntil(first);
     if (first + 1 < times.size() && is_late()) {
       answer.verdict = Verdict::unknown;
-      answer.reason = "the time of one check (~guard/budget) has passed";
+      answer.reason = "the time of one check (~limits/guard_budget) has passed";
     } else if (first + 1 < times.size()) {
       walk.extend(answer, checkerOf({robot}, joined, tick, narrow_phase), first);
     }

@@ -12,7 +12,7 @@
 namespace hgrid {
 
 /// Returns the messages of ~events for a tick: none if no pair began or ended, several if there are more events than
-/// ~max_events. WorldState.last_event of each message is the number of the last event in that message. If it were the
+/// ~limits/max_events. WorldState.last_event of each message is the number of the last event in that message. If it were the
 /// last event of the tick, a receiver would count the events of the next message as lost. Distances are measured until
 /// a fifth of ~distances/budget is used up.
 std::vector<boost::shared_ptr<msg::Events>> eventsMessages(const Tick& tick, const msg::WorldState& world,

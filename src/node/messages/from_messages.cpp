@@ -20,7 +20,7 @@ std::shared_ptr<const TriangleMesh> fromMesh(const shape_msgs::Mesh& source, std
     throw Refusal(Code::limit, "the shape has " + std::to_string(source.triangles.size()) + " triangles and " +
                                    std::to_string(source.vertices.size()) + " vertices; at most " +
                                    std::to_string(max_triangles) +
-                                   " triangles (~max_mesh_triangles) and three times as many vertices are allowed");
+                                   " triangles (~limits/max_mesh_triangles) and three times as many vertices are allowed");
   }
   const auto mesh = std::make_shared<TriangleMesh>();
   for (const geometry_msgs::Point& vertex : source.vertices) mesh->vertices.push_back(fromPoint(vertex));

@@ -173,7 +173,7 @@ ObstacleChanges obstacleChangesOf(const msg::ApplyObstacles::Request& request, c
   const auto most = 4 * static_cast<std::size_t>(params.max_bodies);
   if (request.changes.size() > most) {
     throw Refusal(Code::limit, "the request has " + std::to_string(request.changes.size()) + " changes; at most " +
-                                   std::to_string(most) + " are allowed (4 * ~max_bodies)");
+                                   std::to_string(most) + " are allowed (4 * ~limits/max_bodies)");
   }
   ObstacleChanges changes;
   checkText(request.owner, "the owner of the complete set");

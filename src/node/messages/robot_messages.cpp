@@ -107,7 +107,7 @@ std::shared_ptr<const RobotDescription> textOf(const msg::RobotChange& change, c
     throw Refusal(Code::limit, "the " + std::string(name) + " of " + subjectOf(change) + " has " +
                                    std::to_string(text->size()) + " bytes; at most " +
                                    std::to_string(params.max_description_bytes) +
-                                   " are allowed (~max_description_bytes)");
+                                   " are allowed (~limits/max_description_bytes)");
   }
   const std::optional<std::string> srdf = change.srdf.empty() ? std::nullopt : std::optional(change.srdf);
   return std::make_shared<const RobotDescription>(change.urdf, srdf);
@@ -147,7 +147,7 @@ std::vector<RobotRequest> robotRequestsOf(const msg::ApplyRobots::Request& reque
   if (count > most || request.changes.size() > most) {
     throw Refusal(Code::limit, "the request has " + std::to_string(request.changes.size()) + " changes of " +
                                    std::to_string(count) + " robots; at most " + std::to_string(most) +
-                                   " are allowed (4 * ~max_robots)");
+                                   " are allowed (4 * ~limits/max_robots)");
   }
   std::vector<RobotRequest> requests;
   for (std::size_t i = 0; i < request.changes.size(); ++i) {

@@ -303,7 +303,7 @@ ObstacleChanges SceneReader::changesOf(const moveit::PlanningScene<release>& sce
   const auto most = static_cast<std::size_t>(params_.max_bodies);
   if (count > most) {
     throw Refusal(Code::limit, "the planning scene has " + std::to_string(count) + " objects; at most " +
-                                   std::to_string(most) + " are allowed (~max_bodies)");
+                                   std::to_string(most) + " are allowed (~limits/max_bodies)");
   }
   checkRemovals(scene);
   ObstacleChanges changes;
@@ -366,7 +366,7 @@ LinkPaddings paddingsAfter(const SceneExtras& extras, const LinkPaddings& before
   }
   if (after.size() <= most) return after;
   throw Refusal(Code::limit, "there would be paddings of " + std::to_string(after.size()) + " links; at most " +
-                                 std::to_string(most) + " are allowed (~max_links)");
+                                 std::to_string(most) + " are allowed (~limits/max_links)");
 }
 
 template ObstacleChanges SceneReader::changesOf(

@@ -85,7 +85,7 @@ class MatrixReader {
   void add(const MatrixRule& rule) {
     if (rules_.size() >= most_) {
       throw Refusal(Code::limit, kWhat + " needs more than " + std::to_string(most_) +
-                                     " rules, which is ~max_rules; raise it, or allow fewer pairs to touch");
+                                     " rules, which is ~limits/max_rules; raise it, or allow fewer pairs to touch");
     }
     rules_.push_back(rule);
   }

@@ -88,7 +88,7 @@ void SceneTopics::onMessage(const ros::MessageEvent<const MessageBytes>& event, 
 
 std::string SceneTopics::whyDropped() const {
   return "it is too long, or messages arrive faster than they are applied; at most " +
-         std::to_string(commons_.settings.params.moveit_queue_bytes) + " bytes may wait (~moveit/queue_bytes)";
+         std::to_string(commons_.settings.params.moveit_queue_bytes) + " bytes may wait (~limits/moveit_queue_bytes)";
 }
 
 void SceneTopics::run() {

@@ -31,7 +31,7 @@ void checkConstraints(const moveit::Constraints& constraints, const Params& para
   if (constraints.joint_constraints.size() <= most) return;
   throw Refusal(Code::limit, "the request has " + std::to_string(constraints.joint_constraints.size()) +
                                  " joint constraints; at most " + std::to_string(most) +
-                                 " are allowed (8 times ~max_links)");
+                                 " are allowed (8 times ~limits/max_links)");
 }
 
 /// Evaluates a constraint as MoveIt does: angles of continuous joints are compared modulo a full turn, a position

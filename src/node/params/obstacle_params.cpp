@@ -39,7 +39,7 @@ std::shared_ptr<const TriangleMesh> readMesh(ParamValue& shape, bool has_triangl
   std::vector<ParamValue> list = ParamValue(*triangles).elements();
   if (list.size() > most) {
     throw Refusal(Code::limit, "the mesh has " + std::to_string(list.size()) + " triangles; at most " +
-                                   std::to_string(most) + " are allowed (~max_mesh_triangles)");
+                                   std::to_string(most) + " are allowed (~limits/max_mesh_triangles)");
   }
   for (ParamValue& triangle : list) {
     std::vector<ParamValue> corners = triangle.elements();

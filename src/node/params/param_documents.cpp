@@ -22,6 +22,9 @@ struct ParamRow {
   std::string meaning;
 };
 
+constexpr const char* kLimitsNote =
+    "You need not touch these. They protect the process: nothing that arrives can fill its memory or take all of its "
+    "time. The node says by name which limit it has reached.";
 constexpr const char* kChangeable = "; may change at run time";
 
 /// A visitor that collects all parameters in their order.
@@ -157,6 +160,7 @@ std::string paramsAsYaml() {
   for (const ParamRow& row : allRows()) {
     if (row.section != section) {
       out << "\n# " << row.section << "\n";
+      if (row.section == "Limits") writeComment(out, "", kLimitsNote);
       group.clear();
     }
     section = row.section;
@@ -199,16 +203,18 @@ std::string paramsAsMarkdown() {
          "- `~valid_for` is at least one period of `~rate`, and of `~heartbeat` if `~follow_data` is true.\n"
          "- `~distances/max` <= `~margin`\n"
          "- `~map/crop_min` <= `~map/crop_max` on each axis\n"
-         "- `~min_size` < `~max_size`\n"
-         "- `~allowed_pairs` has at most `~max_rules` entries.\n"
-         "- `~robots` has at most `~max_robots` entries.\n"
-         "- `~maps` has at most `~max_maps` entries.\n"
+         "- `~limits/min_size` < `~limits/max_size`\n"
+         "- `~allowed_pairs` has at most `~limits/max_rules` entries.\n"
+         "- `~robots` has at most `~limits/max_robots` entries.\n"
+         "- `~maps` has at most `~limits/max_maps` entries.\n"
          "- `~world_frame` is required with several `~robots`.\n"
          "- Globs of `~padding` do not begin with `map/` or `cloud/`, because cells cannot be grown.\n";
   std::string section;
   for (const ParamRow& row : allRows()) {
     if (row.section != section) {
-      out << "\n## " << row.section << "\n\n| name | type | unit | default | range | meaning |\n"
+      out << "\n## " << row.section << "\n";
+      if (row.section == "Limits") out << "\n" << kLimitsNote << "\n";
+      out << "\n| name | type | unit | default | range | meaning |\n"
           << "| --- | --- | --- | --- | --- | --- |\n";
     }
     section = row.section;

@@ -40,9 +40,6 @@ void visitParams(Visitor& v, Params& p) {
   v.broadPhase("broadphase/type", p.broad_phase,
                "kind of broad phase; the results are the same with each of them. hgrid was the fastest in all "
                "measured worlds; doc/partitions.md compares them");
-  v.number("finest_edge", p.finest_edge, "m", 0.0, 1000.0,
-           "longest side of the boxes on the finest level of hgrid, at least 0.001; 0: chosen from the bodies");
-
   v.string("state_folder", p.state_folder,
            "folder in which obstacles, robots, rules and maps that services changed are stored, so that a restart "
            "keeps them; the "
@@ -97,12 +94,8 @@ void visitParams(Visitor& v, Params& p) {
       "only where no move_group offers them in the same namespace");
   v.flag("moveit/allowed_collision_matrix", p.moveit_matrix,
          "whether the allowed collision matrix of a planning scene switches off pairs: its names of links and objects "
-         "that may touch become rules, at most ~max_rules. The parameter ~allowed_pairs and the service ~set_allowed "
-         "take precedence over equally exact rules of the matrix");
-  v.integer("moveit/queue_bytes", p.moveit_queue_bytes, 1000, 1 << 30,
-            "largest total size, in bytes, of the messages of moveit/topics that wait to be read. A message counts as "
-            "its own size plus 512 bytes. A message that exceeds the limit is dropped (counter moveit.dropped.LIMIT in "
-            "~status), and the world is not complete");
+         "that may touch become rules, at most ~limits/max_rules. The parameter ~allowed_pairs and the service "
+         "~set_allowed take precedence over equally exact rules of the matrix");
 
   v.section("People and vehicles");
   v.trackers(
@@ -119,11 +112,6 @@ void visitParams(Visitor& v, Params& p) {
       "track can have moved there, or up to noise farther; default 0.2; only for type poses. forget: a track ends when "
       "it has been LOST for this long; default 5. max_tracks: largest number of tracks, default 100. See "
       "doc/tutorials/8_people_and_vehicles.md");
-  v.integer(
-      "track_queue_bytes", p.track_queue_bytes, 1000, 1 << 30,
-      "largest total size, in bytes, of the messages of one tracker that wait to be read. A message counts as its "
-      "own size plus 256 bytes. When the limit is exceeded, the oldest messages are dropped (counter "
-      "track/<name>.dropped.LIMIT in ~status). A single message that is longer is refused");
 
   v.section("Maps");
   v.maps("maps", p.maps,
@@ -169,15 +157,8 @@ void visitParams(Visitor& v, Params& p) {
            "of the padded shapes of the body, at its pose at the stamp of the map (of a file: when it is read). A "
            "padding of 0.87 cell edges leaves out all cells that touch the body. If several globs match, the last one "
            "counts. Empty list: no cells are left out");
-  v.integer("map/max_bytes", p.map_max_bytes, 1000, 1 << 30,
-            "largest size of a file or message of a map or cloud, in bytes");
   v.number("map/shown_within", p.map_shown_within, "m", 0.0, 1000.0,
            "~markers show the occupied cells that are within this distance of the box of a body; 0: none");
-  v.integer("map/max_shown", p.map_max_shown, 1, 1000000, "largest number of cells that ~markers show");
-  v.integer("map/max_leaves", p.map_max_leaves, 1, 100000000,
-            "largest number of cells of a map or cloud: occupied cells and, if map/unknown is report, pieces of "
-            "unknown space");
-
   v.strings("required", p.required,
             "globs over body names; while one of them matches no body, the world is not complete");
 
@@ -197,7 +178,7 @@ void visitParams(Visitor& v, Params& p) {
           "m. walls: each normal points out of the room and may have any length; offset: distance of the wall from the "
           "origin, along the normal. Where rooms overlap by more than 1 mm, there is no wall: the box around the "
           "common space is a door. Planes, maps, clouds and bodies with a shape in no room make pairs with everything. "
-          "At most 1000. See doc/partitions.md");
+          "At most 1000. See doc/rooms.md");
   v.doors(
       "doors", p.doors,
       "list of {rooms: [name, name], pose: {xyz: [m], rpy: [rad]}, size: [x, y, z]}: openings between two of the "
@@ -218,8 +199,6 @@ void visitParams(Visitor& v, Params& p) {
            "~events reports the end of a pair when its gap exceeds its margin by more than this");
 
   v.section("Time");
-  v.number("max_sync_wait", p.max_sync_wait, "s", 0.0, 10.0,
-           "how far the time of a tick may stay behind the newest transform, to wait for frames that are slower");
   v.number("late_after", p.late_after, "s", 0.001, 3600.0,
            "a pose is LATE if it is older than this and older than 1.5 periods of its frame");
   v.number("stale_after", p.stale_after, "s", 0.001, 3600.0,
@@ -246,12 +225,7 @@ void visitParams(Visitor& v, Params& p) {
   v.number(
       "history", p.history, "s", 0.0, 60.0,
       "queries and ~explain_pair can ask about the ticks of this last time: they are answered from the last tick that "
-      "is not later than their stamp. Queries in other frames than the world frame also need tf_cache. 0: off");
-  v.number("max_future", p.max_future, "s", 0.0, 3600.0,
-           "a transform whose stamp is farther in the future than this is refused");
-  v.number("tf_cache", p.tf_cache, "s", 1.0, 3600.0, "how long transforms are kept");
-  v.number("clock_jump", p.clock_jump, "s", 0.1, 86400.0,
-           "ROS time counts as having jumped if it advances by more than real time plus this within one tick");
+      "is not later than their stamp. Queries in other frames than the world frame also need ~limits/tf_cache. 0: off");
 
   v.section("Exact distances");
   v.changeable();
@@ -265,74 +239,10 @@ void visitParams(Visitor& v, Params& p) {
            "addition. 0: no limit");
   v.integer("distances/threads", p.distances_threads, 1, 64, "number of threads that measure distances");
 
-  v.section("Limits");
-  v.number("world_limit", p.world_limit, "m", 1.0, 1e6, "poses with a coordinate beyond this are refused");
-  v.number("min_size", p.min_size, "m", 1e-6, 1.0, "smallest radius, side or height of a shape");
-  v.number("max_size", p.max_size, "m", 1.0, 1e5, "largest radius, side, height or vertex coordinate of a shape");
-  v.flag("allow_flat", p.allow_flat, "true: a box may have one side of length 0");
+  v.section("The node");
   v.integer("threads", p.threads, 1, 64,
             "number of threads that the broad phase of a tick may use; more than 1 helps from some tens of thousands "
             "of shapes on");
-  v.integer("max_bodies", p.max_bodies, 1, 1000000, "largest number of bodies");
-  v.integer("max_robots", p.max_robots, 1, 10000,
-            "largest number of robots, configured and added with ~apply_robots, present or absent");
-  v.integer("max_planes", p.max_planes, 0, 10000,
-            "largest number of planes of all obstacles. A tick compares each plane with every shape that can move");
-  v.integer("max_maps", p.max_maps, 1, 10000, "largest number of maps, configured and loaded with ~load_octomap");
-  v.integer(
-      "max_frames", p.max_frames, 1, 1000000,
-      "largest number of tf frames that are kept. The frames that bodies follow, the world frame and the frames above "
-      "them do not count: there is room for as many of them");
-  v.integer("max_samples", p.max_samples, 10, 10000000,
-            "largest number of transforms of one frame that are kept, even if tf_cache would keep more; the oldest are "
-            "dropped (counter tf.samples.LIMIT in ~status)");
-  v.integer("tf_queue_bytes", p.tf_queue_bytes, 1000, 1 << 30,
-            "largest total size, in bytes, of the messages of /tf that wait for the tick thread, and again as much for "
-            "each of /tf_static and ~poses. A message counts as its own size plus 256 bytes plus the length of its "
-            "publisher's name. When "
-            "the limit is exceeded, the oldest messages are dropped (counter tf.dropped.LIMIT in ~status). A single "
-            "message that is longer is refused");
-  v.integer(
-      "history_bytes", p.history_bytes, 1000, 2147483647,
-      "largest memory of the past ticks that history keeps, in bytes. Bodies and maps that the newest tick uses as "
-      "well do not count. When the limit is reached, the history is shorter (history_begin in messages, counter "
-      "history.dropped.LIMIT in ~status)");
-  v.integer("max_pairs", p.max_pairs, 1, 10000000,
-            "largest number of pairs that a tick lists; if there are more, the list is truncated and the world is not "
-            "complete");
-  v.integer("max_events", p.max_events, 1, 1000000,
-            "largest number of events in one message of ~events; further events of a tick are in further messages");
-  v.integer("event_queue", p.event_queue, 1, 100000,
-            "number of messages of ~events that may wait for a slow subscriber; when the queue is full, the oldest "
-            "message is dropped");
-  v.integer("max_hits", p.max_hits, 1, 1000000,
-            "largest number of hits in one answer; if there are more, the answer is truncated");
-  v.integer(
-      "max_batch", p.max_batch, 1, 1000000,
-      "largest number of questions, states or edges in a request of ~query_batch, ~check_states or ~check_edges; a "
-      "request with more is refused");
-  v.integer(
-      "max_listed", p.max_listed, 1, 100000,
-      "largest number of bodies, and of sources, that a message lists as not complete or not fresh, and of entries of "
-      "each list of ~status");
-  v.integer("max_reasons", p.max_reasons, 1, 1000,
-            "largest number of reasons for an incomplete world that a message lists");
-  v.integer("max_rules", p.max_rules, 1, 10000,
-            "largest number of rules of the allowed-pair matrix, including those of allowed_pairs");
-  v.integer("max_description_bytes", p.max_description_bytes, 1000, 256 << 20,
-            "largest size of a URDF or SRDF, in bytes");
-  v.integer("max_description_depth", p.max_description_depth, 8, 98, "deepest nesting of elements in a URDF or SRDF");
-  v.integer("max_links", p.max_links, 1, 100000, "largest number of links of a robot");
-  v.integer("max_mesh_bytes", p.max_mesh_bytes, 1000, 1 << 30, "largest size of a mesh file, in bytes");
-  v.integer("max_mesh_triangles", p.max_mesh_triangles, 1, 100000000, "largest number of triangles of a mesh");
-  v.integer("mesh_memory", p.mesh_memory, 64 << 20, 2147483647,
-            "largest amount of memory for reading a mesh, in bytes");
-  v.number(
-      "mesh_timeout", p.mesh_timeout, "s", 0.1, 600.0,
-      "longest time for reading a mesh; all meshes of a robot together may take 4 times as long, and the rest is not "
-      "read");
-
-  v.section("The node");
   v.changeable();
   v.integer("query_threads", p.query_threads, 1, 64,
             "number of threads that answer queries; a query waits only while all of them are busy");
@@ -340,10 +250,6 @@ void visitParams(Visitor& v, Params& p) {
             "number of threads that answer requests with many questions (~query_batch, ~distance_field, ~check_states, "
             "~check_edges, ~guard). Such a request may take seconds. Other queries have threads of their own "
             "(~query_threads)");
-  v.number(
-      "lease_max", p.lease_max, "s", 0.0, 3600.0,
-      "longest time for which a request can make the node keep a tick (a lease), so that later requests are answered "
-      "from the same tick; the node keeps at most 16 ticks");
   v.pathTopics(
       "guard/topics", p.path_topics,
       "list of {topic, robot}: topics with the paths that robots are commanded to follow. The messages may be "
@@ -356,8 +262,6 @@ void visitParams(Visitor& v, Params& p) {
   v.number("guard/deviation", p.guard_deviation, "rad or m", 0.0, 1000.0,
            "how far a joint may be from the path that its robot follows; if it is farther, all paths without a "
            "conflict are UNKNOWN");
-  v.number("guard/budget", p.guard_budget, "s", 0.001, 10.0,
-           "longest time of one check of all paths; what was not checked in this time is UNKNOWN");
   v.number("audit_rate", p.audit_rate, "Hz", 0.0, 10.0,
            "how many ticks per second are audited: a thread of low priority computes the poses, the pairs and some "
            "queries of the tick again, by brute force from the transforms as they were received; 0: none");
@@ -365,6 +269,97 @@ void visitParams(Visitor& v, Params& p) {
            "folder for a file with all data of an audit that found a difference; empty: the folder of ROS's logs");
   v.changeable();
   v.number("marker_rate", p.marker_rate, "Hz", 0.1, 100.0, "how often ~markers is published while it has subscribers");
+
+  v.section("Limits");
+  v.integer("limits/moveit_queue_bytes", p.moveit_queue_bytes, 1000, 1 << 30,
+            "largest total size, in bytes, of the messages of moveit/topics that wait to be read. A message counts as "
+            "its own size plus 512 bytes. A message that exceeds the limit is dropped (counter moveit.dropped.LIMIT in "
+            "~status), and the world is not complete");
+  v.integer(
+      "limits/track_queue_bytes", p.track_queue_bytes, 1000, 1 << 30,
+      "largest total size, in bytes, of the messages of one tracker that wait to be read. A message counts as its "
+      "own size plus 256 bytes. When the limit is exceeded, the oldest messages are dropped (counter "
+      "track/<name>.dropped.LIMIT in ~status). A single message that is longer is refused");
+  v.integer("limits/max_map_bytes", p.map_max_bytes, 1000, 1 << 30,
+            "largest size of a file or message of a map or cloud, in bytes");
+  v.integer("limits/max_shown_cells", p.map_max_shown, 1, 1000000, "largest number of cells that ~markers show");
+  v.integer("limits/max_map_leaves", p.map_max_leaves, 1, 100000000,
+            "largest number of cells of a map or cloud: occupied cells and, if map/unknown is report, pieces of "
+            "unknown space");
+  v.number("limits/max_sync_wait", p.max_sync_wait, "s", 0.0, 10.0,
+           "how far the time of a tick may stay behind the newest transform, to wait for frames that are slower");
+  v.number("limits/max_future", p.max_future, "s", 0.0, 3600.0,
+           "a transform whose stamp is farther in the future than this is refused");
+  v.number("limits/tf_cache", p.tf_cache, "s", 1.0, 3600.0, "how long transforms are kept");
+  v.number("limits/world_limit", p.world_limit, "m", 1.0, 1e6, "poses with a coordinate beyond this are refused");
+  v.number("limits/min_size", p.min_size, "m", 1e-6, 1.0, "smallest radius, side or height of a shape");
+  v.number("limits/max_size", p.max_size, "m", 1.0, 1e5,
+           "largest radius, side, height or vertex coordinate of a shape");
+  v.flag("limits/allow_flat", p.allow_flat, "true: a box may have one side of length 0");
+  v.integer("limits/max_bodies", p.max_bodies, 1, 1000000, "largest number of bodies");
+  v.integer("limits/max_robots", p.max_robots, 1, 10000,
+            "largest number of robots, configured and added with ~apply_robots, present or absent");
+  v.integer("limits/max_planes", p.max_planes, 0, 10000,
+            "largest number of planes of all obstacles. A tick compares each plane with every shape that can move");
+  v.integer("limits/max_maps", p.max_maps, 1, 10000,
+            "largest number of maps, configured and loaded with ~load_octomap");
+  v.integer(
+      "limits/max_frames", p.max_frames, 1, 1000000,
+      "largest number of tf frames that are kept. The frames that bodies follow, the world frame and the frames above "
+      "them do not count: there is room for as many of them");
+  v.integer("limits/max_samples", p.max_samples, 10, 10000000,
+            "largest number of transforms of one frame that are kept, even if ~limits/tf_cache would keep more; the oldest are "
+            "dropped (counter tf.samples.LIMIT in ~status)");
+  v.integer("limits/tf_queue_bytes", p.tf_queue_bytes, 1000, 1 << 30,
+            "largest total size, in bytes, of the messages of /tf that wait for the tick thread, and again as much for "
+            "each of /tf_static and ~poses. A message counts as its own size plus 256 bytes plus the length of its "
+            "publisher's name. When "
+            "the limit is exceeded, the oldest messages are dropped (counter tf.dropped.LIMIT in ~status). A single "
+            "message that is longer is refused");
+  v.integer(
+      "limits/history_bytes", p.history_bytes, 1000, 2147483647,
+      "largest memory of the past ticks that history keeps, in bytes. Bodies and maps that the newest tick uses as "
+      "well do not count. When the limit is reached, the history is shorter (history_begin in messages, counter "
+      "history.dropped.LIMIT in ~status)");
+  v.integer("limits/max_pairs", p.max_pairs, 1, 10000000,
+            "largest number of pairs that a tick lists; if there are more, the list is truncated and the world is not "
+            "complete");
+  v.integer("limits/max_events", p.max_events, 1, 1000000,
+            "largest number of events in one message of ~events; further events of a tick are in further messages");
+  v.integer("limits/event_queue", p.event_queue, 1, 100000,
+            "number of messages of ~events that may wait for a slow subscriber; when the queue is full, the oldest "
+            "message is dropped");
+  v.integer("limits/max_hits", p.max_hits, 1, 1000000,
+            "largest number of hits in one answer; if there are more, the answer is truncated");
+  v.integer(
+      "limits/max_batch", p.max_batch, 1, 1000000,
+      "largest number of questions, states or edges in a request of ~query_batch, ~check_states or ~check_edges; a "
+      "request with more is refused");
+  v.integer(
+      "limits/max_listed", p.max_listed, 1, 100000,
+      "largest number of bodies, and of sources, that a message lists as not complete or not fresh, and of entries of "
+      "each list of ~status");
+  v.integer("limits/max_rules", p.max_rules, 1, 10000,
+            "largest number of rules of the allowed-pair matrix, including those of allowed_pairs");
+  v.integer("limits/max_description_bytes", p.max_description_bytes, 1000, 256 << 20,
+            "largest size of a URDF or SRDF, in bytes");
+  v.integer("limits/max_description_depth", p.max_description_depth, 8, 98,
+            "deepest nesting of elements in a URDF or SRDF");
+  v.integer("limits/max_links", p.max_links, 1, 100000, "largest number of links of a robot");
+  v.integer("limits/max_mesh_bytes", p.max_mesh_bytes, 1000, 1 << 30, "largest size of a mesh file, in bytes");
+  v.integer("limits/max_mesh_triangles", p.max_mesh_triangles, 1, 100000000, "largest number of triangles of a mesh");
+  v.integer("limits/mesh_memory", p.mesh_memory, 64 << 20, 2147483647,
+            "largest amount of memory for reading a mesh, in bytes");
+  v.number(
+      "limits/mesh_timeout", p.mesh_timeout, "s", 0.1, 600.0,
+      "longest time for reading a mesh; all meshes of a robot together may take 4 times as long, and the rest is not "
+      "read");
+  v.number(
+      "limits/lease_max", p.lease_max, "s", 0.0, 3600.0,
+      "longest time for which a request can make the node keep a tick (a lease), so that later requests are answered "
+      "from the same tick; the node keeps at most 16 ticks");
+  v.number("limits/guard_budget", p.guard_budget, "s", 0.001, 10.0,
+           "longest time of one check of all paths; what was not checked in this time is UNKNOWN");
 }
 
 }  // namespace hgrid

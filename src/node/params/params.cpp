@@ -23,6 +23,31 @@ namespace {
 
 constexpr const char* kReserved[] = {"obstacle", "map", "cloud", "track"};  // other sources have these names
 
+/// Parameters that are limits. Earlier versions read them without `limits/`.
+constexpr const char* kNowLimits[] = {
+    "allow_flat",         "event_queue", "history_bytes",         "lease_max",             "max_batch",
+    "max_bodies",         "max_events",  "max_description_bytes", "max_description_depth", "max_frames",
+    "max_future",         "max_hits",    "max_links",             "max_listed",            "max_maps",
+    "max_mesh_bytes",     "max_pairs",   "max_mesh_triangles",    "max_planes",            "max_robots",
+    "max_rules",          "max_samples", "max_size",              "max_sync_wait",         "mesh_memory",
+    "mesh_timeout",       "min_size",    "tf_cache",              "tf_queue_bytes",        "track_queue_bytes",
+    "world_limit"};
+
+/// Other names that earlier versions read, and what takes their place.
+struct FormerName {
+  const char *name, *now;
+};
+constexpr FormerName kFormerNames[] = {
+    {"guard/budget", "is now ~limits/guard_budget"},
+    {"map/max_bytes", "is now ~limits/max_map_bytes"},
+    {"map/max_leaves", "is now ~limits/max_map_leaves"},
+    {"map/max_shown", "is now ~limits/max_shown_cells"},
+    {"moveit/queue_bytes", "is now ~limits/moveit_queue_bytes"},
+    {"clock_jump", "is gone: ROS time has jumped if it gains more than 10 s on real time within one tick"},
+    {"finest_edge", "is gone: the node chooses the cells of the grid"},
+    {"max_reasons", "is gone: messages list at most 8 reasons"},
+};
+
 /// A visitor that fills Params with the values from the parameter server.
 class Reader {
  public:
@@ -205,12 +230,17 @@ class Reader {
   void finish() {
     if (trackers_) *trackers_target_ = readTrackers(*trackers_, params_);
     if (obstacles_) *obstacles_target_ = readObstacles(*obstacles_, params_);
+    for (const char* name : kNowLimits) refuseFormer(name, std::string("is now ~limits/") + name);
+    for (const FormerName& former : kFormerNames) refuseFormer(former.name, former.now);
     for (auto& group : groups_) {
       if (group.second) group.second->finish("parameter of this node");
     }
   }
 
  private:
+  void refuseFormer(const char* name, const std::string& now) {
+    if (auto given = get(name)) given->error(now);
+  }
   template <class Read>
   void forEach(const char* name, const char* noun, Read&& read) {
     auto given = get(name);
@@ -287,17 +317,15 @@ Params readParams(XmlRpc::XmlRpcValue values, std::vector<std::string>& errors) 
                 " and ~map/crop_max is " + text(params.map_crop_max[axis]) + " m; crop_min must be at most crop_max");
   }
   require(params.min_size < params.max_size,
-          "~min_size is " + text(params.min_size) + " m; it must be below ~max_size, " + text(params.max_size) + " m");
-  require(params.finest_edge == 0.0 || params.finest_edge >= 1e-3,
-          "~finest_edge is " + text(params.finest_edge) + " m; it must be 0 or at least 0.001 m");
+          "~limits/min_size is " + text(params.min_size) + " m; it must be below ~limits/max_size, " + text(params.max_size) + " m");
   require(params.allowed_pairs.size() <= static_cast<std::size_t>(params.max_rules),
-          "~allowed_pairs has " + std::to_string(params.allowed_pairs.size()) + " rules; at most ~max_rules, " +
+          "~allowed_pairs has " + std::to_string(params.allowed_pairs.size()) + " rules; at most ~limits/max_rules, " +
               std::to_string(params.max_rules) + ", are allowed");
   require(params.robots.size() <= static_cast<std::size_t>(params.max_robots),
-          "~robots has " + std::to_string(params.robots.size()) + " robots; at most ~max_robots, " +
+          "~robots has " + std::to_string(params.robots.size()) + " robots; at most ~limits/max_robots, " +
               std::to_string(params.max_robots) + ", are allowed");
   require(params.maps.size() <= static_cast<std::size_t>(params.max_maps),
-          "~maps has " + std::to_string(params.maps.size()) + " maps; at most ~max_maps, " +
+          "~maps has " + std::to_string(params.maps.size()) + " maps; at most ~limits/max_maps, " +
               std::to_string(params.max_maps) + ", are allowed");
   for (const PatternValue& padding : params.padding) {
     require(padding.pattern.rfind("map/", 0) != 0 && padding.pattern.rfind("cloud/", 0) != 0,

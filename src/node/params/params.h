@@ -125,7 +125,6 @@ struct Params {
   int realtime = 0;
   double margin = 0.10;
   BroadPhaseType broad_phase = BroadPhaseType::hgrid;
-  double finest_edge = 0.0;
 
   std::vector<RobotParams> robots;
   bool watch_descriptions = true;
@@ -156,7 +155,7 @@ struct Params {
   double late_after = 0.1, stale_after = 0.25, lost_after = 2.0;
   double horizon = 0.0;
   double growth_cap = 1.0, default_max_speed = 2.0;
-  double max_sync_wait = 0.1, max_future = 0.5, tf_cache = 10.0, clock_jump = 10.0, valid_for = 0.1;
+  double max_sync_wait = 0.1, max_future = 0.5, tf_cache = 10.0, valid_for = 0.1;
   double history = 2.0;
 
   double world_limit = 1e6, min_size = 1e-4, max_size = 1e5;
@@ -166,7 +165,7 @@ struct Params {
       tf_queue_bytes = 16 << 20;
   int history_bytes = 64 << 20;
   int max_pairs = 100000, max_events = 10000, event_queue = 100;
-  int max_hits = 10000, max_batch = 100000, max_listed = 100, max_reasons = 8, max_rules = 1000;
+  int max_hits = 10000, max_batch = 100000, max_listed = 100, max_rules = 1000;
   int max_description_bytes = 16 << 20, max_description_depth = 98, max_links = 2000;
   std::vector<std::string> mesh_roots;
   int max_mesh_bytes = 64 << 20, max_mesh_triangles = 1000000, mesh_memory = 512 << 20;

@@ -24,7 +24,7 @@ struct QueryOptions {
   const std::string& frame;                 ///< frame of the geometry; empty: the world frame
   const std::vector<std::string>& include;  ///< see QueryScope
   const std::vector<std::string>& exclude;  ///< see QueryScope
-  std::uint32_t limit;                      ///< largest number of hits; 0, or more than ~max_hits, means ~max_hits
+  std::uint32_t limit;                      ///< largest number of hits; 0, or more than ~limits/max_hits, means ~limits/max_hits
   bool exact;                               ///< true: measure the shapes of bodies; false: only their boxes
   bool respect_allowed;        ///< true: leave out as_body and the bodies whose pair with as_body is switched off
   const std::string& as_body;  ///< name of a body; read only if respect_allowed is true, and then required

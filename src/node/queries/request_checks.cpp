@@ -43,7 +43,7 @@ void checkBatch(const char* what, std::size_t count, const Params& params) {
   if (count <= static_cast<std::size_t>(params.max_batch)) return;
   throw Refusal(Code::limit, "the request has " + std::to_string(count) + " " + what + "; at most " +
                                  std::to_string(params.max_batch) +
-                                 " are allowed (~max_batch). Split the request, or raise ~max_batch");
+                                 " are allowed (~limits/max_batch). Split the request, or raise ~limits/max_batch");
 }
 
 }  // namespace hgrid

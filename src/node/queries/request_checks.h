@@ -26,7 +26,7 @@ std::optional<std::chrono::steady_clock::time_point> deadlineOf(double max_time)
 std::chrono::steady_clock::time_point batchDeadlineOf(double max_time);
 
 /// Checks the number of questions of a request. @param what  names the questions in the error sentence
-/// @throws Refusal limit if there are more than ~max_batch
+/// @throws Refusal limit if there are more than ~limits/max_batch
 void checkBatch(const char* what, std::size_t count, const Params& params);
 
 }  // namespace hgrid

@@ -39,7 +39,7 @@ PairFilter AllowedServices::filterAfter(const ServiceCall<msg::SetAllowed>& call
   const auto most = static_cast<std::size_t>(params_.max_rules);
   if (request.rules.size() > most) {
     throw Refusal(Code::limit, "the request has " + std::to_string(request.rules.size()) + " rules; at most " +
-                                   std::to_string(most) + " are allowed (~max_rules)");
+                                   std::to_string(most) + " are allowed (~limits/max_rules)");
   }
   const std::vector<PairRule> rules = rulesOf(request.rules, call.caller, thisMoment());
   RuleBook book(structure.filter.rules(), most);

@@ -17,7 +17,7 @@
 namespace hgrid {
 namespace {
 
-constexpr OptionNames kOptionNames = {"~max_pairs",     "~horizon",     "~pair_kinds",
+constexpr OptionNames kOptionNames = {"~limits/max_pairs",     "~horizon",     "~pair_kinds",
                                       "~allowed_pairs", "~set_allowed", "~rooms"};
 
 /// Returns the age [s] of the pose of a body when the answer is sent. It is 0 for a fixed body.

@@ -19,7 +19,7 @@ namespace hgrid {
 namespace {
 
 /// Checks that the globs over what may touch attached obstacles match bodies of the world or of this request.
-/// @throws Refusal limit (~max_rules); ChangeRefusal unknown_id; not_ready
+/// @throws Refusal limit (~limits/max_rules); ChangeRefusal unknown_id; not_ready
 void checkTouch(const ObstacleChanges& changes, const AnswerTick& tick, const Params& params) {
   std::size_t count = 0;
   std::vector<std::string> added;
@@ -29,7 +29,7 @@ void checkTouch(const ObstacleChanges& changes, const AnswerTick& tick, const Pa
   }
   if (count > static_cast<std::size_t>(params.max_rules)) {
     throw Refusal(Code::limit, "the touch lists of the request have " + std::to_string(count) + " globs; at most " +
-                                   std::to_string(params.max_rules) + " are allowed (~max_rules)");
+                                   std::to_string(params.max_rules) + " are allowed (~limits/max_rules)");
   }
   for (std::size_t i = 0; i < changes.changes.size(); ++i) {
     if (!changes.changes[i].attachment) continue;

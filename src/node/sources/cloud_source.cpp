@@ -85,7 +85,7 @@ void CloudSource::take(const CloudMessage& message) {
   if (!message.flaw.empty()) throw Refusal(Code::truncated, what_ + ": " + printable(message.flaw, 200));
   if (message.data.size() > static_cast<std::size_t>(params_.map_max_bytes)) {
     throw Refusal(Code::limit, what_ + " has " + std::to_string(message.data.size()) + " bytes; at most " +
-                                   std::to_string(params_.map_max_bytes) + " are allowed (~map/max_bytes)");
+                                   std::to_string(params_.map_max_bytes) + " are allowed (~limits/max_map_bytes)");
   }
   const std::shared_ptr<const Tick> tick = newest_();
   if (!tick || tick->world_frame.empty()) {
@@ -104,7 +104,7 @@ void CloudSource::take(const CloudMessage& message) {
   }
   if (seconds(stamp - now) > params_.max_future) {
     throw Refusal(Code::clock, what_ + " is stamped " + secondsText(seconds(stamp - now)) +
-                                   " in the future; at most ~max_future, " + secondsText(params_.max_future) +
+                                   " in the future; at most ~limits/max_future, " + secondsText(params_.max_future) +
                                    ", is allowed");
   }
   PointCloud cloud = readPointCloud(message.format, message.data, cloud_.min_range, what_);
@@ -122,7 +122,7 @@ void CloudSource::take(const CloudMessage& message) {
   try {
     cells_.see(voxels, simulated_ ? stamp : Time(received.time_since_epoch()) - latency);
   } catch (const Refusal& refusal) {
-    throw Refusal(refusal.code(), what_ + ": " + refusal.what() + " by ~map/max_leaves");
+    throw Refusal(refusal.code(), what_ + ": " + refusal.what() + " by ~limits/max_map_leaves");
   }
   cells_.forget(cellTime());
   const bool seen = cloud_.empty == EmptyCloud::clear || points >= static_cast<std::size_t>(cloud_.min_points);
@@ -167,7 +167,7 @@ void CloudSource::noteTooNear(Time stamp, Time now, std::uint64_t too_near, cons
 /// setting the wall clock changes no age.
 Time CloudSource::cellTime() const { return simulated_ ? rosNow() : steadyNow(); }
 
-/// Waits until tf knows the poses of the sensor and of the robot's own shapes at the stamp, at most ~max_sync_wait.
+/// Waits until tf knows the poses of the sensor and of the robot's own shapes at the stamp, at most ~limits/max_sync_wait.
 void CloudSource::waitFor(const std::string& world_frame, const std::string& frame, Time stamp) const {
   std::vector<std::string> frames;
   if (self_shapes_.wanted()) frames = self_shapes_.frames();
@@ -181,7 +181,7 @@ void CloudSource::waitFor(const std::string& world_frame, const std::string& fra
 }
 
 /// Returns the pose of the sensor at the stamp.
-/// @throws Refusal extrapolation or unknown_frame if tf does not know this pose within ~max_sync_wait
+/// @throws Refusal extrapolation or unknown_frame if tf does not know this pose within ~limits/max_sync_wait
 Pose CloudSource::sensorPose(const std::string& frame, const std::string& world_frame, Time stamp) const {
   waitFor(world_frame, frame, stamp);
   std::string why;
@@ -189,7 +189,7 @@ Pose CloudSource::sensorPose(const std::string& frame, const std::string& world_
   if (!world_from_sensor) {
     throw Refusal(transforms_.newest(world_frame, frame) ? Code::extrapolation : Code::unknown_frame,
                   what_ + ": the pose of its frame '" + printable(frame) + "' in '" + world_frame + "' at its stamp, " +
-                      text(seconds(stamp)) + " s, is still unknown after ~max_sync_wait, " +
+                      text(seconds(stamp)) + " s, is still unknown after ~limits/max_sync_wait, " +
                       secondsText(params_.max_sync_wait) + ": " + printable(why, 300));
   }
   checkWithin(world_from_sensor->translation, params_.world_limit, what_ + ": the pose of its sensor");

@@ -103,7 +103,7 @@ const LoadedRobot& robotWith(const std::vector<std::string>& joints, const std::
   const std::size_t most = 8 * static_cast<std::size_t>(tick.settings->params.max_links);  // a joint has up to 7 values
   if (joints.size() > most) {
     throw Refusal(Code::limit, "the request has " + std::to_string(joints.size()) + " joints; at most " +
-                                   std::to_string(most) + " are allowed (8 times ~max_links)");
+                                   std::to_string(most) + " are allowed (8 times ~limits/max_links)");
   }
   std::vector<Names> present;
   for (const auto& [name, entry] : *tick.robots) {

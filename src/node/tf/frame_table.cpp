@@ -52,7 +52,7 @@ void FrameTable::checkRoom(std::string_view parent, std::uint32_t number, std::s
   if ((new_child && placed_.isFull(needed, max_frames_)) ||
       (new_parent && parents_.isFull(parent_needed, max_frames_))) {
     throw Refusal(Code::limit, "transform of frame '" + printable(std::string(child)) +
-                                   "' would add one frame too many; ~max_frames is " + std::to_string(max_frames_));
+                                   "' would add one frame too many; ~limits/max_frames is " + std::to_string(max_frames_));
   }
 }
 

@@ -25,7 +25,7 @@ class FrameTable {
   /// The largest number of parents that are followed upwards from a frame. This ends the search in a loop of parents.
   static constexpr std::size_t kLongestChain = 1000;
 
-  /// @param max_frames  ~max_frames: at most this many frames may have a parent, and at most this many may be a parent.
+  /// @param max_frames  ~limits/max_frames: at most this many frames may have a parent, and at most this many may be a parent.
   ///                    As many needed frames may have a parent or be a parent, in addition.
   explicit FrameTable(std::size_t max_frames) : max_frames_(max_frames) {}
   FrameTable(const FrameTable&) = delete;

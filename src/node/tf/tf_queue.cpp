@@ -26,7 +26,7 @@ void TfQueue::push(ReceivedTransforms transforms) {
   const MessageBytes& message = *transforms.message;
   const std::size_t most_bytes = std::min(most_bytes_, message.most_bytes);
   if (message.size > most_bytes) {
-    const std::string rule = " bytes; at most " + std::to_string(most_bytes) + " are accepted (~tf_queue_bytes)";
+    const std::string rule = " bytes; at most " + std::to_string(most_bytes) + " are accepted (~limits/tf_queue_bytes)";
     const std::string size = std::to_string(message.size);
     return ledger_.refuse("tf.refused", Refusal(Code::limit, transforms.name() + " has " + size + rule));
   }
@@ -34,7 +34,7 @@ void TfQueue::push(ReceivedTransforms transforms) {
     ledger_.refuse(
         "tf.dropped",
         Refusal(Code::limit, dropped.name() + " is dropped: transforms arrive faster than they are read; at most " +
-                                 std::to_string(most_bytes_) + " bytes may wait (~tf_queue_bytes)"));
+                                 std::to_string(most_bytes_) + " bytes may wait (~limits/tf_queue_bytes)"));
   }
 }
 

@@ -57,7 +57,7 @@ void checkStamp(const TransformView& transform, const Moment& now, double max_fu
   const double ahead = seconds(transform.stamp - now.ros);
   if (ahead > max_future) {
     throw Refusal(Code::clock, whatOf(transform) + " is stamped " + secondsText(ahead) + " in the future; at most " +
-                                   text(max_future) + " s are allowed (~max_future)");
+                                   text(max_future) + " s are allowed (~limits/max_future)");
   }
 }
 

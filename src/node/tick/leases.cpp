@@ -34,7 +34,7 @@ std::shared_ptr<const Tick> Leases::find(const ::hgrid_proximity::Lease& asked,
   throw Refusal(Code::extrapolation, "the node does not keep tick " + std::to_string(asked.sequence) +
                                          " any more; the newest is " + std::to_string(newest->snapshot->sequence()) +
                                          ". A lease lasts as long as its last request says, at most " +
-                                         text(newest->settings->params.lease_max) + " s (~lease_max)");
+                                         text(newest->settings->params.lease_max) + " s (~limits/lease_max)");
 }
 
 ::hgrid_proximity::Lease Leases::keep(const ::hgrid_proximity::Lease& asked, const std::shared_ptr<const Tick>& tick) {

@@ -76,7 +76,7 @@ void TickHistory::compact() {
   if (now.skipped > counted_.skipped) ledger_.count("history.skipped", now.skipped - counted_.skipped);
   if (now.dropped > counted_.dropped) {
     ledger_.count("history.dropped.LIMIT", now.dropped - counted_.dropped);
-    ROS_WARN_STREAM_THROTTLE(60.0, "~history is " << text(span_) << " s, but ~history_bytes, " << bytes_
+    ROS_WARN_STREAM_THROTTLE(60.0, "~history is " << text(span_) << " s, but ~limits/history_bytes, " << bytes_
                                                   << ", has room for only " << secondsText(seconds(now.end - now.begin))
                                                   << " of ticks; raise it, or lower ~history");
   }

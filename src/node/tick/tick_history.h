@@ -15,7 +15,7 @@
 
 namespace hgrid {
 
-/// Keeps the ticks of the last ~history seconds within ~history_bytes, so that queries can ask about them (see
+/// Keeps the ticks of the last ~history seconds within ~limits/history_bytes, so that queries can ask about them (see
 /// History). A thread of its own makes the ticks compact, so that no tick waits for that.
 class TickHistory {
  public:
@@ -38,7 +38,7 @@ class TickHistory {
   void compact();
 
   const double span_;  // [s] ~history
-  const int bytes_;    // [bytes] ~history_bytes
+  const int bytes_;    // [bytes] ~limits/history_bytes
   Ledger& ledger_;
   History history_;
   HistoryExtent counted_;                     // history thread only: what the counters contain

@@ -44,7 +44,7 @@ struct TrackSet {
 class TrackList {
  public:
   /// @param max_speed  [m/s] largest speed of a track
-  /// @param params     ~late_after, ~stale_after, ~lost_after and ~max_future count
+  /// @param params     ~late_after, ~stale_after, ~lost_after and ~limits/max_future count
   /// @param simulated  whether /clock drives ROS time
   TrackList(const TrackerParams& tracker, double max_speed, const Params& params, bool simulated)
       : tracker_(tracker),

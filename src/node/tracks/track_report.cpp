@@ -78,7 +78,7 @@ class Reader {
     const Time stamp = fromRos(given);
     const double ahead = seconds(stamp - report_.arrival.ros);
     if (ahead <= max_future_) return stamp;
-    throw Refusal(Code::clock, what + " is stamped " + secondsText(ahead) + " in the future; at most ~max_future, " +
+    throw Refusal(Code::clock, what + " is stamped " + secondsText(ahead) + " in the future; at most ~limits/max_future, " +
                                    secondsText(max_future_) + ", is allowed");
   }
 

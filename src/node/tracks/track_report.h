@@ -36,7 +36,7 @@ struct TrackReport {
 /// The markers of an array are read in their order. DELETE and DELETEALL remove markers that came before in the same
 /// array; they do nothing else, because a track ends when it is no longer reported.
 /// @param arrival     when the message arrived
-/// @param max_future  [s] as ~max_future
+/// @param max_future  [s] as ~limits/max_future
 /// @throws Refusal truncated, limit (max_tracks), nonfinite, bad_rotation, clock, bad_id or dup_id for an id, or
 /// unsupported for an action or a kind of marker that has no single pose
 TrackReport readTrackReport(const std::string& bytes, const TrackerParams& tracker, const Moment& arrival,

@@ -97,7 +97,7 @@ void TrackSource::handle(const ReceivedTracks& received) {
 void TrackSource::take(const ReceivedTracks& received) {
   if (received.message->size > static_cast<std::size_t>(params_.track_queue_bytes)) {
     throw Refusal(Code::limit, "it has " + std::to_string(received.message->size) + " bytes; at most " +
-                                   std::to_string(params_.track_queue_bytes) + " are allowed (~track_queue_bytes)");
+                                   std::to_string(params_.track_queue_bytes) + " are allowed (~limits/track_queue_bytes)");
   }
   const std::shared_ptr<const Tick> tick = newest_();
   if (!tick || tick->world_frame.empty()) {
@@ -125,7 +125,7 @@ void TrackSource::take(const ReceivedTracks& received) {
                                               "seem to be fresher than they are: let the tracker set header.stamp"));
 }
 
-/// Waits until tf knows the frames at their stamps, at most until the message is ~max_sync_wait old.
+/// Waits until tf knows the frames at their stamps, at most until the message is ~limits/max_sync_wait old.
 void TrackSource::waitFor(const TrackReport& report, const std::string& world_frame) const {
   const auto deadline = report.arrival.steady + std::chrono::nanoseconds(std::llround(1e9 * params_.max_sync_wait));
   for (const auto& [frame, stamp] : framesOf(report)) {

@@ -58,7 +58,7 @@ std::string serialized(const msg::Poses& poses, const std::vector<std::string>& 
   if (size > most_bytes) {
     throw Refusal(Code::limit, "its " + std::to_string(poses.position.size()) + " poses need " + std::to_string(size) +
                                    " bytes as transforms; at most " + std::to_string(most_bytes) +
-                                   " are accepted (~tf_queue_bytes)");
+                                   " are accepted (~limits/tf_queue_bytes)");
   }
   std::string result(size, '\0');
   ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(&result[0]), static_cast<std::uint32_t>(size));
@@ -88,7 +88,7 @@ std::string PosesConverter::toTransforms(const std::string& bytes, const std::st
   checkLengths(poses);
   if (poses.names.size() > most_names_) {
     throw Refusal(Code::limit, "it has " + std::to_string(poses.names.size()) + " names; at most " +
-                                   std::to_string(most_names_) + " are allowed (~max_bodies)");
+                                   std::to_string(most_names_) + " are allowed (~limits/max_bodies)");
   }
   if (poses.header.frame_id.size() > kLongestFrameName) {
     throw Refusal(Code::limit, "its frame_id has " + std::to_string(poses.header.frame_id.size()) + " bytes; at most " +

@@ -15,7 +15,7 @@
 namespace hgrid {
 
 /// Returns the body of a map, without its cells.
-/// @throws Refusal nonfinite or out_of_range if the map's position in its frame is beyond ~world_limit
+/// @throws Refusal nonfinite or out_of_range if the map's position in its frame is beyond ~limits/world_limit
 Body mapBodyOf(const LoadedMap& map, const std::string& world_frame, const Params& params);
 
 /// Stores which maps are in the world, their poses in their frames, and whether their cells can be trusted.

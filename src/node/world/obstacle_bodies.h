@@ -53,7 +53,7 @@ class ObstacleBodies {
   /// Applies changes, all of them or none.
   /// @param prepared  result of prepare() for the same changes, which may be out of date; null: none. If it is used, it
   ///                  then holds the obstacles that left or changed, which takes long to destroy.
-  /// @throws ChangeRefusal or Refusal as editsOf(); Refusal limit (~max_rules), or as Scene::exchange()
+  /// @throws ChangeRefusal or Refusal as editsOf(); Refusal limit (~limits/max_rules), or as Scene::exchange()
   void apply(const ObstacleChanges& changes, const Surroundings& around, Movers& movers,
              PreparedObstacles* prepared = nullptr);
   /// Finds the places of attached obstacles again, and the speeds of those that follow the frame of a link, if the

@@ -38,7 +38,7 @@ std::vector<PairRule> touchRulesAfter(const ObstacleEdits& edits, const PlacedOb
   if (count > most) {
     throw Refusal(Code::limit, "the attached obstacles would need " + std::to_string(count) +
                                    " rules for their links and the globs in touch; at most " + std::to_string(most) +
-                                   " are allowed (~max_rules)");
+                                   " are allowed (~limits/max_rules)");
   }
   std::vector<PairRule> rules;
   visit([&](const std::string& name, const PlacedObstacle& obstacle) {

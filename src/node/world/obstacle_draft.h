@@ -31,7 +31,7 @@ struct ObstacleDraft {
 /// fixed obstacle changes, the scene keeps the body and its pairs.
 /// @param present        the obstacles before the edits
 /// @param some_attached  false only if no present obstacle is attached
-/// @throws Refusal limit (~max_rules)
+/// @throws Refusal limit (~limits/max_rules)
 ObstacleDraft draftOf(ObstacleEdits edits, const PlacedObstacles& present, bool some_attached, const Params& params,
                       const std::string& world_frame);
 

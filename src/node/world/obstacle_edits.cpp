@@ -225,7 +225,7 @@ void ObstacleEditor::carryGroup(const PlacedObstacle& before, const PlacedObstac
     if (name == after.what->body.name) continue;
     if (++carried_ > most) {
       throw Refusal(Code::limit, "the changes would move more than " + std::to_string(most) +
-                                     " obstacles with their groups (4 * ~max_bodies); move each group only once");
+                                     " obstacles with their groups (4 * ~limits/max_bodies); move each group only once");
     }
     PlacedObstacle next = *find(name);
     carry(next, before, after, around_);

@@ -59,7 +59,7 @@ bool isAtSamePlace(const PlacedObstacle& a, const PlacedObstacle& b);
 
 ///@{
 /// Changes the place of an obstacle.
-/// @throws Refusal out_of_range (~world_limit); unknown_frame or extrapolation if the pose of a frame is not known at
+/// @throws Refusal out_of_range (~limits/world_limit); unknown_frame or extrapolation if the pose of a frame is not known at
 /// the time for which it is needed, or older than ~stale_after
 void put(PlacedObstacle& obstacle, const ObstaclePlace& place, const Surroundings& around);
 /// @throws also bad_id, unknown_id if no robot has the link, and conflict if several robots have a link of this name
@@ -76,7 +76,7 @@ void checkMoveTogether(const PlacedObstacle& added, const PlacedObstacle& other)
 /// Moves an obstacle as one rigid body with another one of its group: to another place, or to or from a link.
 /// @param before  the other obstacle before its change; it moves together with `obstacle`
 /// @param after   the other obstacle after its change
-/// @throws Refusal out_of_range (~world_limit), bad_id if a name that is a glob would be attached
+/// @throws Refusal out_of_range (~limits/world_limit), bad_id if a name that is a glob would be attached
 void carry(PlacedObstacle& obstacle, const PlacedObstacle& before, const PlacedObstacle& after,
            const Surroundings& around);
 

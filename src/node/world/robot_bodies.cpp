@@ -35,7 +35,7 @@ std::set<std::string> leaving(const RobotEntries& present, const RobotEntries& n
 
 Refusal tooLarge(const LoadedRobot& robot, const Params& params) {
   return {Code::limit, "robot '" + robot.name + "' has " + std::to_string(robot.bodies.size()) +
-                           " bodies; with them, the world would have more than ~max_bodies, " +
+                           " bodies; with them, the world would have more than ~limits/max_bodies, " +
                            std::to_string(params.max_bodies)};
 }
 
@@ -136,7 +136,7 @@ void RobotBodies::reset(const std::function<bool(const SourceId&)>& leaves_too) 
   exchange(models_.configured(), nullptr, leaves_too);
 }
 
-/// Returns the first robot with which the world would have more than ~max_bodies bodies; null: there is none.
+/// Returns the first robot with which the world would have more than ~limits/max_bodies bodies; null: there is none.
 /// @param next  all robots after the change; those that are in the world already have room
 const LoadedRobot* RobotBodies::findTooLarge(const RobotEntries& next) const {
   std::size_t count = scene_.size();

@@ -43,13 +43,13 @@ class RobotBodies {
   const RobotModels& models() const { return models_; }
 
   /// Replaces the model of the robot of the same name, or adds a robot. An absent robot stays absent.
-  /// @throws Refusal limit (~max_bodies), or as Scene::exchange()
+  /// @throws Refusal limit (~limits/max_bodies), or as Scene::exchange()
   /// @param robot     not null
   /// @param prepared  result of prepare(); null: none. It is not used if setPaddings() gave paddings to links, or if it
   ///                  was made for another change.
   void set(std::shared_ptr<const LoadedRobot> robot, PreparedRobotBodies* prepared = nullptr);
   /// Applies changes of robots, all of them or none. @param world_frame  empty: not known yet
-  /// @throws ChangeRefusal as edit() and checkSharesRoot(), or limit (~max_bodies); Refusal as Scene::exchange()
+  /// @throws ChangeRefusal as edit() and checkSharesRoot(), or limit (~limits/max_bodies); Refusal as Scene::exchange()
   /// @param prepared  as above
   void apply(const RobotChanges& changes, const std::string& world_frame, PreparedRobotBodies* prepared = nullptr);
   /// Prepares the bodies of robots for set() or apply(), so that they take less time. Any thread may call this.

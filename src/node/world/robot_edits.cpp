@@ -17,7 +17,7 @@ std::size_t sizeOf(const RobotDescription& text) {
 /// Checks that there is room for one more robot. @throws Refusal limit
 void checkRoom(const std::string& name, const RobotSpec& spec, const RobotEntries& robots, const Params& params) {
   if (robots.size() >= static_cast<std::size_t>(params.max_robots)) {
-    throw Refusal(Code::limit, "robot '" + name + "' would be one robot too many; ~max_robots is " +
+    throw Refusal(Code::limit, "robot '" + name + "' would be one robot too many; ~limits/max_robots is " +
                                    std::to_string(params.max_robots) + ": remove a robot, or raise the limit");
   }
   if (!spec.text) return;
@@ -31,7 +31,7 @@ void checkRoom(const std::string& name, const RobotSpec& spec, const RobotEntrie
   throw Refusal(Code::limit, "with robot '" + name + "', the descriptions that requests contained would have " +
                                  std::to_string(bytes) + " bytes together; at most " +
                                  std::to_string(params.max_description_bytes) +
-                                 " are allowed (~max_description_bytes): put the description into a parameter, or use "
+                                 " are allowed (~limits/max_description_bytes): put the description into a parameter, or use "
                                  "like for an equal robot");
 }
 

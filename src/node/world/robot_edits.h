@@ -13,7 +13,7 @@ namespace hgrid {
 /// Checks whether a change of a robot is allowed, and whether it changes anything.
 /// @param spec  for add: the robot
 /// @returns false if the robot is already as requested, so that the change must be left out
-/// @throws Refusal unknown_id; for add: dup_id, limit (~max_robots, ~max_description_bytes)
+/// @throws Refusal unknown_id; for add: dup_id, limit (~limits/max_robots, ~limits/max_description_bytes)
 bool isNeeded(RobotOperation operation, const std::string& name, const RobotSpec* spec, const RobotEntries& robots,
               const Params& params);
 

@@ -12,13 +12,14 @@
 namespace hgrid {
 namespace {
 
+constexpr double kClockJump = 10.0;  // [s] ROS time that gains more than this on real time within a tick has jumped
+
 SceneOptions optionsOf(const Params& params, const std::vector<PairRule>& stored_rules) {
   SceneOptions options;
   options.origin = params.origin;
   options.margin = params.margin;
   options.event_hysteresis = params.event_hysteresis;
   options.broad_phase = params.broad_phase;
-  options.finest_edge = params.finest_edge;
   if (!params.rooms.empty()) options.building = std::make_shared<const Building>(params.rooms, params.doors);
   options.threads = params.threads;
   options.world_limit = params.world_limit;
@@ -27,7 +28,6 @@ SceneOptions optionsOf(const Params& params, const std::vector<PairRule>& stored
   options.max_bodies = static_cast<std::size_t>(params.max_bodies);
   options.max_planes = static_cast<std::size_t>(params.max_planes);
   options.max_pairs = static_cast<std::size_t>(params.max_pairs);
-  options.max_reasons = static_cast<std::size_t>(params.max_reasons);
   options.required = params.required;
   options.pair_kinds = params.pair_kinds;
   options.allowed_pairs = params.allowed_pairs;
@@ -54,7 +54,7 @@ World::World(std::shared_ptr<const Settings> settings, bool simulated, std::uint
       scene_(optionsOf(params_, stored.rules)),
       transforms_(params_.max_future, params_.tf_cache, static_cast<std::size_t>(params_.max_frames), simulated, ledger,
                   static_cast<std::size_t>(params_.max_samples), params_.max_sync_wait),
-      clock_(simulated, params_.clock_jump, params_.stale_after),
+      clock_(simulated, kClockJump, params_.stale_after),
       movers_(scene_),
       poses_(params_, transforms_, scene_, movers_, ledger),
       missing_(params_),
@@ -111,7 +111,7 @@ void World::setMap(const LoadedMap& map) {
   }
   const SourceId source = SourceId::ofMap(map.params.name);
   if (!maps_.has(source) && maps_.size() >= static_cast<std::size_t>(params_.max_maps)) {
-    throw Refusal(Code::limit, what + " would be one map too many; ~max_maps is " + std::to_string(params_.max_maps) +
+    throw Refusal(Code::limit, what + " would be one map too many; ~limits/max_maps is " + std::to_string(params_.max_maps) +
                                    ": remove a map with ~clear_map, or give it the name of a map to replace");
   }
   const Body body = mapBodyOf(map, world_frame_, params_);

@@ -80,7 +80,7 @@ class World {
   /// @throws Refusal unknown_id if there is no such map
   void clearMap(const std::string& name);
   /// Replaces the cells of a cloud. The first call for a cloud adds the body of the cloud.
-  /// @throws Refusal limit (~max_bodies)
+  /// @throws Refusal limit (~limits/max_bodies)
   void setCloud(const LoadedCloud& cloud);
   /// Replaces all tracks of a tracker. See TrackBodies::set().
   /// @param tracker  as TrackerParams::name

@@ -40,10 +40,10 @@ class DistancesNode : public ::testing::Test {
          {"stale_after", 3600.0},
          {"lost_after", 3600.0},
          {"margin", 0.2},
-         {"min_size", 0.01},
-         {"max_size", 50.0},
-         {"allow_flat", true},
-         {"max_mesh_triangles", 4},
+         {"limits/min_size", 0.01},
+         {"limits/max_size", 50.0},
+         {"limits/allow_flat", true},
+         {"limits/max_mesh_triangles", 4},
          {"distances", dict({{"max", 0.15}})},
          {"max_speed", list({dict({{"pattern", "obstacle/ball"}, {"speed", 0.5}})})},
          {"robots", list({dict({{"name", "none"}, {"description", "robot_description"}})})},
@@ -208,8 +208,8 @@ msg::QueryShape::Request meshRequest(std::size_t triangles) {
   return request;
 }
 
-/// Claim: the shape of a query has the same limits as all other shapes: ~min_size, ~max_size, ~allow_flat and
-/// ~max_mesh_triangles.
+/// Claim: the shape of a query has the same limits as all other shapes: ~limits/min_size, ~limits/max_size, ~limits/allow_flat and
+/// ~limits/max_mesh_triangles.
 TEST_F(DistancesNode, QueryShapeKeepsTheLimitsOfAllShapes) {
   const auto answer = [&](const msg::QueryShape::Request& request) {
     return call<msg::QueryShape>("query_shape", request).answer;
@@ -221,15 +221,15 @@ TEST_F(DistancesNode, QueryShapeKeepsTheLimitsOfAllShapes) {
   }
   EXPECT_TRUE(says(sphere(0.009).code.text, "radius is 0.009 m; it must be within 0.01 .. 50 m"));
   for (const double good : {0.01, 50.0}) EXPECT_EQ(sphere(good).verdict, msg::Verdict::CLEAR) << good;
-  EXPECT_EQ(answer(shapeRequest(msg::ShapeKind::BOX, {1.0, 1.0, 0.0})).verdict, msg::Verdict::CLEAR) << "~allow_flat";
+  EXPECT_EQ(answer(shapeRequest(msg::ShapeKind::BOX, {1.0, 1.0, 0.0})).verdict, msg::Verdict::CLEAR) << "~limits/allow_flat";
   EXPECT_EQ(answer(shapeRequest(msg::ShapeKind::BOX, {1.0, 0.0, 0.0})).code.name, "BAD_GEOMETRY");
   EXPECT_EQ(answer(meshRequest(4)).verdict, msg::Verdict::CLEAR);
   const Answer refused = answer(meshRequest(5));
   EXPECT_EQ(refused.code.name, "LIMIT");
-  EXPECT_TRUE(says(refused.code.text, "has 5 triangles and 7 vertices; at most 4 triangles (~max_mesh_triangles)"));
+  EXPECT_TRUE(says(refused.code.text, "has 5 triangles and 7 vertices; at most 4 triangles (~limits/max_mesh_triangles)"));
   msg::QueryShape::Request far = meshRequest(1);
   far.shape.mesh.vertices[0].z = 51.0;
-  EXPECT_EQ(answer(far).code.name, "OUT_OF_RANGE") << "a vertex beyond ~max_size";
+  EXPECT_EQ(answer(far).code.name, "OUT_OF_RANGE") << "a vertex beyond ~limits/max_size";
 }
 
 /// Claim: a rotation of four zeros in a request means no rotation. Any other value that is no rotation is refused.

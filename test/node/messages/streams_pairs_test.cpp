@@ -82,7 +82,7 @@ TEST(Pairs, AreTruncatedToTheNearestAndTheWorldIsThenNotComplete) {
   NodeSetup setup;
   setup.params = dict(
       {{"world_frame", "base"},
-       {"max_pairs", 2},
+       {"limits/max_pairs", 2},
        {"obstacles", list({ball("a", 0, 0, -5.22, 0.1), ball("b", 0, 0, -5.15, 0.1), ball("c", 0, 0, -5.24, 0.1)})}});
   setup.beside["robot_description"] = balls({});
   NodeUnderTest node(setup);
@@ -91,7 +91,7 @@ TEST(Pairs, AreTruncatedToTheNearestAndTheWorldIsThenNotComplete) {
   EXPECT_TRUE(pairs->truncated);
   EXPECT_FALSE(pairs->world.complete);
   EXPECT_EQ(pairs->world.reasons, Names({"TRUNCATED: more than 2 pairs are near; ~pairs lists only 2 pairs "
-                                         "(~max_pairs)"}));
+                                         "(~limits/max_pairs)"}));
   EXPECT_EQ(pairs->world.reasons_total, 1u);
   const auto response = node.sphere(5, 0, 0, 0.1);
   EXPECT_EQ(response.answer.verdict, msg::Verdict::CLEAR) << "queries do not depend on pairs";

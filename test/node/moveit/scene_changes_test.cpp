@@ -332,7 +332,7 @@ TEST_F(SceneWorld, WrongMessagesAreRefusedAsAWhole) {
   EXPECT_EQ(refusedScene(attachedTo("hand", sceneObject(Object::REMOVE, "part"))), Code::conflict) << "not attached";
   NoeticScene full;
   full.collision_objects.resize(23);
-  EXPECT_EQ(refusedScene(full), Code::limit) << "~max_bodies is 22";
+  EXPECT_EQ(refusedScene(full), Code::limit) << "~limits/max_bodies is 22";
   EXPECT_EQ(placesIn(tick()), (Places{{"part", 1}, {"post", 3}}));
 }
 

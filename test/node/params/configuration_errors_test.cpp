@@ -41,8 +41,8 @@ std::string refusalOfShape(const Value& shape, const Value& more = dict()) {
 TEST(ParamErrors, AWrongTypeIsNamed) {
   expectRefused(dict({{"rate", "fast"}}), "~rate is a string ('fast'); it must be a number");
   expectRefused(dict({{"rate", true}}), "~rate is a boolean; it must be a number");
-  expectRefused(dict({{"max_pairs", 2.5}}), "~max_pairs is a number; it must be an integer");
-  expectRefused(dict({{"allow_flat", 1}}), "~allow_flat is an integer; it must be true or false");
+  expectRefused(dict({{"limits/max_pairs", 2.5}}), "~limits/max_pairs is a number; it must be an integer");
+  expectRefused(dict({{"limits/allow_flat", 1}}), "~limits/allow_flat is an integer; it must be true or false");
   expectRefused(dict({{"world_frame", 3}}), "~world_frame is an integer; it must be a string");
   expectRefused(dict({{"origin", 3.0}}), "~origin is a number; it must be a list");
   expectRefused(dict({{"origin", list({Value(1.0)})}}), "~origin has 1 elements; it must have 3");
@@ -83,13 +83,18 @@ TEST(ParamErrors, InvalidTopicsAndPatternsAreNamed) {
   expectRefused(dict({{"map", dict({{"unknown", true}})}}), "~map/unknown is a boolean; it must be a string");
 }
 
+TEST(ParamErrors, AFormerNameSaysWhatToWriteNow) {
+  expectRefused(dict({{"max_pairs", 5}}), "~max_pairs is now ~limits/max_pairs");
+  expectRefused(dict({{"map/max_leaves", 5}}), "~map/max_leaves is now ~limits/max_map_leaves");
+  expectRefused(dict({{"clock_jump", 1.0}}), "~clock_jump is gone: ROS time has jumped if it gains more than 10 s");
+}
+
 TEST(ParamErrors, ANumberOutOfRangeIsNamedWithTheRange) {
   expectRefused(dict({{"rate", 0.0}}), "~rate is 0 Hz; it must be within 1 .. 1000 Hz");
   expectRefused(dict({{"rate", kNan}}), "~rate is nan Hz; it must be within 1 .. 1000 Hz");
   expectRefused(dict({{"margin", -0.01}}), "~margin is -0.01 m; it must be within 0 .. 1000 m");
   expectRefused(dict({{"margin", kInfinity}}), "~margin is inf m; it must be within 0 .. 1000 m");
   expectRefused(dict({{"query_threads", 0}}), "~query_threads is 0; it must be within 1 .. 64");
-  expectRefused(dict({{"finest_edge", 1e-5}}), "~finest_edge is 1e-05 m; it must be 0 or at least 0.001 m");
   expectRefused(
       dict({{"stale_after", 5.0}}),
       "~late_after is 0.1 s, ~stale_after is 5 s and ~lost_after is 2 s; none may be smaller than the one before it");
@@ -150,8 +155,8 @@ TEST(ParamErrors, ShapesThatCannotExistAreRefused) {
 TEST(ParamErrors, APlateIsABoxOnlyWhereThatIsAllowed) {
   const Value plate = dict({{"type", "box"}, {"size", xyz(1, 1, 0)}});
   EXPECT_TRUE(says(refusalOfShape(plate), "box: side z is 0 m"));
-  EXPECT_EQ(refusalOfShape(plate, dict({{"allow_flat", true}})), "");
-  EXPECT_TRUE(says(refusalOfShape(dict({{"type", "box"}, {"size", xyz(1, 0, 0)}}), dict({{"allow_flat", true}})),
+  EXPECT_EQ(refusalOfShape(plate, dict({{"limits/allow_flat", true}})), "");
+  EXPECT_TRUE(says(refusalOfShape(dict({{"type", "box"}, {"size", xyz(1, 0, 0)}}), dict({{"limits/allow_flat", true}})),
                    "box: side y is 0 m"))
       << "at most one side may be 0";
 }

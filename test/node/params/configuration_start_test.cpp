@@ -32,11 +32,11 @@ TEST(ParamsFile, LoadingItGivesTheDefaults) {
   ASSERT_TRUE(ros::param::get("/params_file", loaded));
   const Params read = readParams(loaded), defaults = readParams(dict());
   using P = Params;
-  expectEqual(read, defaults, &P::world_frame, &P::origin, &P::rate, &P::heartbeat, &P::follow_data, &P::realtime, &P::margin, &P::broad_phase, &P::finest_edge, &P::late_after,
+  expectEqual(read, defaults, &P::world_frame, &P::origin, &P::rate, &P::heartbeat, &P::follow_data, &P::realtime, &P::margin, &P::broad_phase, &P::late_after,
               &P::stale_after, &P::lost_after, &P::horizon, &P::growth_cap, &P::default_max_speed, &P::max_sync_wait,
-              &P::max_future, &P::tf_cache, &P::clock_jump, &P::valid_for, &P::world_limit, &P::min_size, &P::max_size,
+              &P::max_future, &P::tf_cache, &P::valid_for, &P::world_limit, &P::min_size, &P::max_size,
               &P::allow_flat, &P::max_bodies, &P::max_frames, &P::max_pairs, &P::event_hysteresis, &P::max_events,
-              &P::event_queue, &P::max_hits, &P::max_listed, &P::max_reasons, &P::max_rules, &P::max_description_bytes,
+              &P::event_queue, &P::max_hits, &P::max_listed, &P::max_rules, &P::max_description_bytes,
               &P::max_description_depth, &P::max_links, &P::mesh_roots, &P::use_visual, &P::max_mesh_bytes,
               &P::max_mesh_triangles, &P::mesh_memory, &P::mesh_timeout, &P::query_threads, &P::batch_threads, &P::marker_rate,
               &P::distances_max, &P::distances_budget, &P::distances_threads);

@@ -107,7 +107,7 @@ class HangingReader {
   NodeSetup setup() const {
     NodeSetup setup = setupOfWorld();
     setup.params["mesh_roots"] = list({folder_.string()});
-    setup.params["mesh_timeout"] = 600.0;
+    setup.params["limits"]["mesh_timeout"] = 600.0;
     setup.environment["LD_PRELOAD"] = library().string();
     return setup;
   }

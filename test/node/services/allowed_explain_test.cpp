@@ -192,7 +192,7 @@ TEST_F(ExplainPair, NamesThatNobodyHasAreRefused) {
 
 TEST(ExplainPairLimits, APairThatTruncationRemovedIsNotReportedAndTheAnswerSaysWhy) {
   NodeSetup setup;
-  setup.params = dict({{"world_frame", "base"}, {"max_pairs", 1}, {"obstacles", list({ball("post", 0, 0, -5, 0.1)})}});
+  setup.params = dict({{"world_frame", "base"}, {"limits/max_pairs", 1}, {"obstacles", list({ball("post", 0, 0, -5, 0.1)})}});
   setup.params["obstacles"][1] = ball("quay", 0, 0, -5, 0.1);
   setup.beside["robot_description"] = balls({});
   NodeUnderTest node(setup);
@@ -200,7 +200,7 @@ TEST(ExplainPairLimits, APairThatTruncationRemovedIsNotReportedAndTheAnswerSaysW
   EXPECT_TRUE(node.explain("obstacle/post", "robot/base").reported);
   const auto cut = node.explain("obstacle/quay", "robot/base");
   EXPECT_FALSE(cut.reported);
-  EXPECT_TRUE(says(cut.explanation, "there are more pairs than ~max_pairs allows"));
+  EXPECT_TRUE(says(cut.explanation, "there are more pairs than ~limits/max_pairs allows"));
 }
 
 TEST(ExplainPairLimits, TimesBeyondTheHistoryAreRefused) {

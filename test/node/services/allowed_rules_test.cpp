@@ -60,7 +60,7 @@ class AllowedRules : public ::testing::Test {
     NodeSetup setup;
     setup.params =
         dict({{"obstacles", list({ball("post", 0.45, 0, 0, 0.1)})},
-              {"max_rules", 5},
+              {"limits/max_rules", 5},
               {"allowed_pairs",
                list({dict({{"first", "robot/c"}, {"second", "obstacle/p*"}, {"reason", "it leans there"}})})}});
     setup.beside["robot_description"] = balls({"a", "b", "c"});

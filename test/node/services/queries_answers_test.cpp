@@ -166,7 +166,7 @@ TEST(QueryLimits, MaxHitsBoundsEveryAnswer) {
   NodeSetup setup;
   setup.params =
       dict({{"world_frame", "base"},
-            {"max_hits", 2},
+            {"limits/max_hits", 2},
             {"obstacles", list({ball("a", 0, 0, 0, 0.1), ball("b", 1, 0, 0, 0.1), ball("c", 2, 0, 0, 0.1)})}});
   setup.beside["robot_description"] = balls({});
   NodeUnderTest node(setup);

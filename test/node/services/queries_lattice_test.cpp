@@ -38,7 +38,7 @@ class QueryLattice : public ::testing::Test {
       obstacles[obstacles.size()] = box(nameOf(x, y, z), xyz(x + 0.5, y + 0.5, z + 0.5), xyz(1, 1, 1));
     });
     NodeSetup setup;
-    setup.params = dict({{"world_frame", "base"}, {"finest_edge", 1.0}, {"margin", 0.0}, {"obstacles", obstacles}});
+    setup.params = dict({{"world_frame", "base"}, {"margin", 0.0}, {"obstacles", obstacles}});
     setup.params["accept_uncovered"] = list({waiver("robot/*", "there is no robot")});
     setup.beside["robot_description"] = urdf(link("base"));
     return setup;

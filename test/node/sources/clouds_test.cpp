@@ -308,7 +308,7 @@ TEST_F(Clouds, ThatCannotBePlacedAreRefusedAndReportedAsMissing) {
 
 /// The lifetime is so long that cells of a message that should be refused would still be there at the end.
 TEST_F(Clouds, WithWrongLengthsLeaveTheCloudAsItWas) {
-  start(300.0, {}, dict({{"map", dict({{"max_bytes", 100000}})}}));
+  start(300.0, {}, dict({{"limits/max_map_bytes", 100000}}));
   sendUntilComplete({{0.05f, 0.05f, -0.95f}});
   const std::string whole = serialized(cloudOf("camera", transforms_.now(), {{1, 1, 1}, {2, 2, 2}}));
   const std::size_t before = residentKilobytes(node_->process().pid());
@@ -345,7 +345,7 @@ TEST_F(Clouds, WithWrongLengthsLeaveTheCloudAsItWas) {
 }
 
 TEST_F(Clouds, ThatAreLostSayWhatWasWrongWithTheLastMessage) {
-  start(0.3, {}, dict({{"map", dict({{"max_leaves", 2}})}}));
+  start(0.3, {}, dict({{"limits/max_map_leaves", 2}}));
   sendUntilComplete({{0.05f, 0.05f, 1.0f}});
   const auto refused = [&](const sensor_msgs::PointCloud2& cloud, const std::string& words) {
     node_->waitUntil(words, [&](const Heard& heard) {
@@ -358,7 +358,7 @@ TEST_F(Clouds, ThatAreLostSayWhatWasWrongWithTheLastMessage) {
   };
   refused(cloudOf("nowhere", ros::Time(), {{0, 0, 0}}), "UNKNOWN_FRAME cloud 'front' of points: the pose of its frame");
   refused(cloudOf("camera", ros::Time(), {{0, 0, 1}, {1, 0, 1}, {2, 0, 1}}),
-          "LIMIT cloud 'front' of points: there would be 3 cells; at most 2 are allowed by ~map/max_leaves");
+          "LIMIT cloud 'front' of points: there would be 3 cells; at most 2 are allowed by ~limits/max_map_leaves");
   for (const auto& status : node_->heard().status) {
     if (status->gauges.front().name != "cells.cloud/front" || status->gauges.front().value > 0.0) continue;
     ASSERT_FALSE(status->world.complete) << "a refused message does not keep the cloud fresh";

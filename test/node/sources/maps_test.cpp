@@ -149,7 +149,7 @@ TEST(MapsBeyondTheLimit, AreReportedAsMissing) {
   NodeSetup setup;
   setup.params = dict({{"map", dict({{"folder", folder.path()}})},
                        {"maps", list({dict({{"name", "room"}, {"file", "row.bt"}})})},
-                       {"max_bodies", 2},
+                       {"limits/max_bodies", 2},
                        {"margins", list({dict({{"pattern", "robot/aa"}, {"margin", 0.3}})})}});
   setup.beside["robot_description"] = balls({"a"});
   NodeUnderTest node(setup);

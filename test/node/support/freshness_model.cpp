@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kOverlap = 0.6;         // [s] publishers contest a frame if their transforms arrive within this time
 constexpr double kOfAnotherTime = -1e9;  // [s] marks a stamp that was taken before the ROS clock jumped
-constexpr double kLongestGap = 10.0;     // [s] value of ~tf_cache; longest time between two transforms of a known pose
+constexpr double kLongestGap = 10.0;     // [s] value of ~limits/tf_cache; longest time between two transforms of a known pose
 constexpr double kMemory = 4.0;          // [s] how long a frame stays contested after a change of its publisher
 constexpr double kNotice = 0.5;          // [s] longest time that the node needs to notice that two publishers alternate
 constexpr std::ptrdiff_t kFight = 4;     // publishers alternate if they change this often in each kNotice

@@ -15,10 +15,20 @@ namespace test {
 
 using Value = XmlRpc::XmlRpcValue;
 
+/// Sets a member. The key "group/key" names the member `key` of the dictionary `group`.
+inline void set(Value& params, const std::string& key, const Value& value) {
+  const std::size_t slash = key.find('/');
+  if (slash == std::string::npos) {
+    params[key] = value;
+  } else {
+    params[key.substr(0, slash)][key.substr(slash + 1)] = value;
+  }
+}
+
 inline Value dict(std::initializer_list<std::pair<const char*, Value>> members = {}) {
   Value value;
   value.begin();  // makes the value a dictionary, even if no member follows
-  for (const auto& member : members) value[member.first] = member.second;
+  for (const auto& member : members) set(value, member.first, member.second);
   return value;
 }
 
@@ -55,7 +65,7 @@ inline Value waiver(const std::string& pattern, const std::string& reason) {
 
 /// Returns a copy of `params` in which these members are changed or added.
 inline Value with(Value params, std::initializer_list<std::pair<const char*, Value>> members) {
-  for (const auto& member : members) params[member.first] = member.second;
+  for (const auto& member : members) set(params, member.first, member.second);
   return params;
 }
 

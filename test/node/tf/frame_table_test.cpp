@@ -88,7 +88,7 @@ TEST(FrameTable, RefusesOneFrameMoreThanTheLimitAndGoesOnWithTheOthers) {
   put(table, "base", "b");
   std::string sentence;
   EXPECT_EQ(refusalOf([&] { put(table, "base", "c"); }, &sentence), Code::limit);
-  EXPECT_EQ(sentence, "transform of frame 'c' would add one frame too many; ~max_frames is 2");
+  EXPECT_EQ(sentence, "transform of frame 'c' would add one frame too many; ~limits/max_frames is 2");
   EXPECT_EQ(table.find("c"), kNone) << "a refused frame gets no number";
   EXPECT_EQ(put(table, "a", "b"), table.find("b"));
   EXPECT_EQ(refusalOf([&] { put(table, "b", "a"); }), Code::limit) << "'b' would be a third parent";

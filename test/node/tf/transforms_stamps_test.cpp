@@ -16,8 +16,8 @@ NodeSetup ageless() {
   setup.params = dict({{"stale_after", 3600.0},
                        {"lost_after", 3600.0},
                        {"late_after", 3600.0},
-                       {"max_sync_wait", 0.1},
-                       {"max_future", 1.5}});
+                       {"limits/max_sync_wait", 0.1},
+                       {"limits/max_future", 1.5}});
   setup.beside["robot_description"] = balls({"a", "b", "c"});
   return setup;
 }

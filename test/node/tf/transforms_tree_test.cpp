@@ -116,7 +116,7 @@ TEST(TransformTree, AFrameWhoseParentAlternatesIsNeverFreshAndRecovers) {
 TEST(TransformTree, OneFrameTooManyThatNoBodyNeedsIsRefused) {
   TransformSource transforms;
   NodeSetup setup = threeBalls();
-  setup.params = with(setup.params, {{"max_frames", 3}});
+  setup.params = with(setup.params, {{"limits/max_frames", 3}});
   NodeUnderTest node(setup);
   node.waitForStatus("the robot", [](const msg::Status& s) { return s.robots == 1; });
   transforms.fix({stamped("base", "d", at(0)), stamped("base", "e", at(0)), stamped("base", "f", at(0)),
@@ -124,7 +124,7 @@ TEST(TransformTree, OneFrameTooManyThatNoBodyNeedsIsRefused) {
                   stamped("base", "c", at(9))});
   const auto status = node.waitForStatus("one frame is refused",
                                          [](const msg::Status& s) { return counter(s, "tf.refused.LIMIT") > 0; });
-  EXPECT_TRUE(says(node.output(), "frame 'g' would add one frame too many; ~max_frames is 3"));
+  EXPECT_TRUE(says(node.output(), "frame 'g' would add one frame too many; ~limits/max_frames is 3"));
   node.waitForComplete();
 }
 

@@ -21,7 +21,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-constexpr double kMaxSyncWait = 0.1;  // [s] ~max_sync_wait
+constexpr double kMaxSyncWait = 0.1;  // [s] ~limits/max_sync_wait
 
 /// A publisher that sends one frame at a rate, with jitter, and perhaps stops.
 struct Stream {
@@ -100,7 +100,7 @@ class TicksNode {
     NodeSetup setup;
     setup.params = dict({{"rate", 1000.0},
                          {"heartbeat", 0.1},
-                         {"max_sync_wait", kMaxSyncWait},
+                         {"limits/max_sync_wait", kMaxSyncWait},
                          {"late_after", 3600.0},
                          {"stale_after", 3600.0},
                          {"lost_after", 3600.0}});
@@ -119,7 +119,7 @@ std::vector<double> speeds() {
 }
 
 /// Claim: each transform that completes a newer common time causes a tick with this time, and no other transform does.
-/// A stream that stops delays the others for ~max_sync_wait only.
+/// A stream that stops delays the others for ~limits/max_sync_wait only.
 TEST(Ticks, FollowStreamsOfDifferentRatesAsASimulationDoes) {
   for (const double speed : speeds()) {
     SCOPED_TRACE("speed of the clock " + std::to_string(speed));

@@ -39,7 +39,7 @@ class Tracks : public ::testing::Test {
                          {"stale_after", 1.0},
                          {"lost_after", 1.0},
                          {"audit_rate", 10.0},
-                         {"track_queue_bytes", 100000}});
+                         {"limits/track_queue_bytes", 100000}});
     setup.beside["robot_description"] = balls({"a"});
     transforms_.stream("base", "a", at(0));
     transforms_.stream("base", "eye", at(0.0, 0.0, 1.0));

@@ -44,7 +44,7 @@ class Lengths : public ::testing::Test {
   void start(std::optional<int> queue_bytes = std::nullopt) {
     NodeSetup setup;
     setup.params = dict({{"late_after", 3600.0}, {"stale_after", 3600.0}, {"lost_after", 3600.0}});
-    if (queue_bytes) setup.params["tf_queue_bytes"] = *queue_bytes;
+    if (queue_bytes) setup.params["limits"]["tf_queue_bytes"] = *queue_bytes;
     setup.beside["robot_description"] = balls({"a"});
     node_ = std::make_unique<NodeUnderTest>(setup);
     moving_ = ros_.advertise<TransformsBytes>("/tf", 0);  // 0: the publisher drops nothing
@@ -160,7 +160,7 @@ TEST_F(Lengths, OfMessagesThatExceedTheQueueAreRefusedByName) {
   const geometry_msgs::TransformStamped transform = stamped("base", "b", at(1), ros::Time::now());
   moving_.publish(bytesWith(std::vector<geometry_msgs::TransformStamped>(20, transform)));
   waitForRefusals("LIMIT", 1);
-  EXPECT_GE(node_->lines(" bytes; at most 1000 are accepted (~tf_queue_bytes)"), 1u);
+  EXPECT_GE(node_->lines(" bytes; at most 1000 are accepted (~limits/tf_queue_bytes)"), 1u);
   moving_.publish(bytesWith({transform}));
   node_->waitForStatus("the short message is accepted",
                        [](const msg::Status& status) { return counter(status, "tf.accepted") == 2; });

@@ -119,7 +119,7 @@ TEST_F(Fleet, LimitsCountRobotsBodiesAndTexts) {
   for (int i = 0; i < 29; ++i) changes.push_back(joins(cartName(i), std::size_t(i)));
   EXPECT_EQ(refused(changes), std::nullopt);
   EXPECT_EQ(refused({joins("late", 5)}), Refused(Code::limit, 5));
-  EXPECT_NE(sentence_.find("~max_robots is 30"), std::string::npos) << sentence_;
+  EXPECT_NE(sentence_.find("~limits/max_robots is 30"), std::string::npos) << sentence_;
   EXPECT_EQ(refused({isAbsent("amr1"), joins("late", 5)}), Refused(Code::limit, 5)) << "absent robots count";
   EXPECT_EQ(refused({leaves("amr1"), joins("late", 5)}), std::nullopt);
 
@@ -144,7 +144,7 @@ TEST_F(Fleet, LimitsCountRobotsBodiesAndTexts) {
     change->spec = std::make_shared<const RobotSpec>(spec);
   }
   EXPECT_EQ(refused({leaves("amr2"), leaves("amr3"), told, twice}), Refused(Code::limit, 1));
-  EXPECT_NE(sentence_.find("~max_description_bytes"), std::string::npos) << sentence_;
+  EXPECT_NE(sentence_.find("~limits/max_description_bytes"), std::string::npos) << sentence_;
 }
 
 TEST_F(Fleet, WhatWasRefusedBeforeAnAbsenceStillMakesTheRobotIncompleteAfterIt) {

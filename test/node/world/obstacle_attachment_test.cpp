@@ -155,7 +155,7 @@ TEST_F(Obstacles, RefuseInvalidAttachments) {
     EXPECT_EQ(refused({removing("post"), change}), Refused(code, 1)) << change.name << " " << name(code);
   }
   many.touch.assign(40, "arm/*");
-  EXPECT_THROW(apply({many}), Refusal) << "more than ~max_rules";
+  EXPECT_THROW(apply({many}), Refusal) << "more than ~limits/max_rules";
   EXPECT_EQ(placesIn(tick()).size(), 3u);
   EXPECT_TRUE(mayTouch(*tick_->snapshot, "obstacle/part", "arm/hand"));
 }

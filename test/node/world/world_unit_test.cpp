@@ -406,7 +406,7 @@ TEST(WorldMaps, AreAtMostMaxMaps) {
   world.setMap(mapOf("shelf", 1.0, 2));
   std::string sentence;
   EXPECT_EQ(test::refusalOf([&] { world.setMap(mapOf("third", 2.0, 3)); }, &sentence), Code::limit);
-  EXPECT_TRUE(test::says(sentence, "map 'third' would be one map too many; ~max_maps is 2"));
+  EXPECT_TRUE(test::says(sentence, "map 'third' would be one map too many; ~limits/max_maps is 2"));
   world.setMap(mapOf("shelf", 3.0, 4));  // replaces a map
   world.clearMap("hall");
   world.setMap(mapOf("third", 2.0, 3));

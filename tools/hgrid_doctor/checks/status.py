@@ -16,7 +16,7 @@ MOST_DROPPED = 1.5  # joint states per transform from which on a robot_state_pub
 
 POSES_FRAME = "~poses/"  # beginning of the frames of obstacles that messages on ~poses move
 FRAME = re.compile(r"frame '([^']+)'")  # in a reason: the frame that has no pose, or whose pose is old
-MOST_PAIRS = 10_000_000  # largest value of ~max_pairs
+MOST_PAIRS = 10_000_000  # largest value of ~limits/max_pairs
 
 HINTS = {  # fix by the first word of the reason
     "STALE": "See why its publisher is slow or has stopped: `rostopic hz {topic}`, `rosnode list`.",
@@ -141,11 +141,12 @@ def check_clocks(facts: Facts, findings: Findings):
 def check_pairs(facts: Facts, findings: Findings):
     world = facts.status.world
     if not world.complete and world.incomplete_total == 0 and world.sequence > 0:
+        most = min(MOST_PAIRS, 10 * facts.settings.max_pairs)
         findings.add(
             "pairs_truncated",
             ERROR,
             f"~pairs does not list all pairs: {'; '.join(world.reasons) or 'truncated'}.",
-            f"Lower ~margin, or {with_params(facts, {'max_pairs': min(MOST_PAIRS, 10 * facts.settings.max_pairs)})}.",
+            f"Lower ~margin, or {with_params(facts, {'limits': {'max_pairs': most}})}.",
         )
     own = facts.status.self_pairs[0] if len(facts.status.self_pairs) == 1 else None
     if len(facts.status.sources) == 1 and own and own.pairs and own.pairs == own.rigid + own.adjacent + own.srdf:
