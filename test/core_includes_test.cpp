@@ -122,6 +122,36 @@ TEST(CoreIncludes, ARoomIncludesOnlyRoomsBeforeIt) {
   EXPECT_GT(checked, 200u);
 }
 
+/// Claim: a file of the node includes only files from its own folder and from folders before it in this list, and each
+/// folder of the node is in the list.
+TEST(NodeIncludes, AFolderIncludesOnlyFoldersBeforeIt) {
+  const std::vector<std::string> folders = {
+      "text",    "time",       "threads", "wire",     "params",  "health",      "tf",          "robots",  "tick",
+      "sources", "messages",   "tracks",  "world",    "loading", "loop",        "state",       "queries", "states",
+      "markers", "publishers", "guard",   "services", "moveit",  "reconfigure", "diagnostics", "audit",   "process"};
+  const auto rankOf = [&](const std::string& folder) {
+    return std::find(folders.begin(), folders.end(), folder) - folders.begin();
+  };
+  const std::string prefix = "node/";
+  const fs::path side = kRoot / "src/node";
+  std::size_t checked = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(side)) {
+    if (!entry.is_regular_file()) continue;
+    const std::string inside = entry.path().lexically_relative(side).generic_string();
+    const auto rank = rankOf(inside.substr(0, inside.find('/')));
+    ASSERT_LT(rank, rankOf("")) << inside << " is in no folder of the list";
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);) {
+      const std::string header = includedIn(line);
+      if (header.compare(0, prefix.size(), prefix) != 0) continue;
+      ++checked;
+      const std::string used = header.substr(prefix.size());
+      EXPECT_LE(rankOf(used.substr(0, used.find('/'))), rank) << inside << " includes " << header;
+    }
+  }
+  EXPECT_GT(checked, 800u);
+}
+
 /// Claim: code that is compiled for one instruction set includes no templates of the standard library or Eigen. The
 /// linker could use the compiled templates everywhere, even on processors without this instruction set.
 TEST(CoreIncludes, KernelsIncludeNoTemplates) {

@@ -27,10 +27,10 @@
 
 #include <cstring>
 
-#include "src/node/messages/from_messages.h"
 #include "src/node/tf/transform_check.h"
 #include "src/node/tracks/track_report.h"
 #include "src/node/wire/checked.h"
+#include "src/node/wire/from_messages.h"
 #include "src/node/wire/octomap_message.h"
 #include "src/node/wire/transform_slices.h"
 #include "test/fuzz/byte_source.h"

@@ -47,10 +47,10 @@ RIVALS = "node/tf/frame_rivals.cpp"
 FRAMES = "node/tf/frame_table.cpp"
 INTAKE = "node/tf/tf_intake.cpp"
 QUEUE = "node/tf/tf_queue.cpp"
-QUICK = "node/quick_callbacks.cpp"
+QUICK = "node/threads/quick_callbacks.cpp"
 NEWS = "node/tf/tf_news.cpp"
 CLOCKS = "node/tf/publisher_clocks.cpp"
-PACE = "node/tick/tick_pace.cpp"
+PACE = "node/loop/tick_pace.cpp"
 TICK_HISTORY = "node/tick/tick_history.cpp"
 TREE = "node/tf/tf_tree.cpp"
 CHECK = "node/tf/transform_check.cpp"
@@ -62,7 +62,7 @@ FRESHNESS = "node/time/freshness.cpp"
 KEPT = "node/time/kept_pose.cpp"
 TIME = "node/time/tick_time.cpp"
 JOBS = "node/tick/tick_jobs.cpp"
-STOPWATCH = "node/tick/stopwatch.cpp"
+STOPWATCH = "node/threads/stopwatch.cpp"
 STATE_FOLDER = "node/state/state_folder.cpp"
 STATE_LOG = "node/state/state_log.cpp"
 SCENE_FILE = "node/state/scene_file.cpp"
@@ -455,7 +455,7 @@ CORE = [
 NODE = [
     ("the static pose of a frame that a planar joint moves is used", "node/tf/transform_store.h",
      "return table_.isFree(frame) && !histories_[frame].moves();", "return false;"),
-    ("all joints that mimic a mimic joint count as sent", "node/sources/state_publisher.cpp",
+    ("all joints that mimic a mimic joint count as sent", "node/robots/state_publisher.cpp",
      "if (known.count(link->mimic) != 0) {", "if (true) {"),
     ("a publisher that took a frame back long ago is reported as a rival", CLAIMS,
      " && reading - entry.left_at <= kMemory", ""),

@@ -14,7 +14,7 @@
 
 #include "node/audit/audit.h"
 #include "node/audit/case_file.h"
-#include "node/services/guarded.h"
+#include "node/health/guarded.h"
 
 namespace hgrid {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "node/audit/audit_case.h"
 #include "node/audit/audit_findings.h"
-#include "node/commons.h"
-#include "node/tick/newest_only.h"
+#include "node/health/commons.h"
+#include "node/threads/newest_only.h"
 
 namespace hgrid {
 

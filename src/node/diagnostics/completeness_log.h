@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "node/diagnostics/start_grace.h"
+#include "node/health/start_grace.h"
 #include "node/tick/tick.h"
 
 namespace hgrid {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "node/world/model_report.h"
+#include "node/robots/model_report.h"
 
 namespace hgrid {
 

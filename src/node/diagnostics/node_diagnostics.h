@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "node/diagnostics/node_health.h"
+#include "node/health/node_health.h"
 #include "node/tick/newest_tick.h"
 #include "node/tick/tick.h"
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <utility>
 
+#include "node/guard/conflicts_message.h"
 #include "node/guard/guarded_joints.h"
 #include "node/guard/path_deviation.h"
 #include "node/guard/path_start.h"
-#include "node/messages/conflicts_message.h"
-#include "node/services/guarded.h"
+#include "node/health/guarded.h"
 #include "node/states/robot_choice.h"
 
 namespace hgrid {
@@ -67,9 +67,9 @@ void Guard::begin(const PathSource& source, RobotPath path, Time start, const Ti
 RobotPath Guard::prepared(RobotPath path, Time start, const Tick& tick) const {
   const int most = tick.settings->params.max_batch;
   if (path.points() > static_cast<std::size_t>(most)) {
-    throw Refusal(Code::limit, "the path has " + std::to_string(path.points()) + " points; at most " +
-                                   std::to_string(most) + " are allowed (~limits/max_batch). Send fewer points, or raise " +
-                                   "~limits/max_batch");
+    throw Refusal(Code::limit,
+                  "the path has " + std::to_string(path.points()) + " points; at most " + std::to_string(most) +
+                      " are allowed (~limits/max_batch). Send fewer points, or raise " + "~limits/max_batch");
   }
   const LoadedRobot& robot = robotNamed(path.robot, tick);
   for (std::string& joint : path.joints) joint = jointOf(joint, robot.name);

@@ -13,10 +13,10 @@
 #include <tuple>
 #include <vector>
 
-#include "node/commons.h"
 #include "node/guard/path_check.h"
 #include "node/guard/path_list.h"
-#include "node/tick/newest_only.h"
+#include "node/health/commons.h"
+#include "node/threads/newest_only.h"
 
 namespace hgrid {
 

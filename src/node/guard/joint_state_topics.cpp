@@ -7,7 +7,7 @@
 
 #include "node/guard/guarded_joints.h"
 #include "node/guard/path_message_types.h"
-#include "node/services/guarded.h"
+#include "node/health/guarded.h"
 #include "node/time/ros_time.h"
 #include "node/wire/bytes_subscriber.h"
 

@@ -10,9 +10,9 @@
 #include <memory>
 #include <string>
 
-#include "node/callback_threads.h"
-#include "node/commons.h"
 #include "node/guard/joint_states.h"
+#include "node/health/commons.h"
+#include "node/threads/callback_threads.h"
 #include "node/tick/tick.h"
 #include "node/wire/message_bytes.h"
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "hgrid_proximity/world/snapshot.h"
-#include "node/moveit/scene_types.h"
 #include "node/params/params.h"
+#include "node/wire/scene_types.h"
 
 namespace hgrid {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "node/moveit/scene_types.h"
 #include "node/wire/checked.h"
+#include "node/wire/scene_types.h"
 
 namespace hgrid {
 

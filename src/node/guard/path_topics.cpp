@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "node/guard/action_message.h"
-#include "node/services/guarded.h"
+#include "node/health/guarded.h"
 #include "node/time/ros_time.h"
 #include "node/wire/bytes_subscriber.h"
 

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "node/callback_threads.h"
-#include "node/commons.h"
 #include "node/guard/action_goals.h"
 #include "node/guard/guard.h"
 #include "node/guard/path_message.h"
+#include "node/health/commons.h"
+#include "node/threads/callback_threads.h"
 #include "node/wire/message_bytes.h"
 
 namespace hgrid {

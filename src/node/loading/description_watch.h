@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "node/params/params.h"
-#include "node/sources/robot_source.h"
+#include "node/robots/robot_source.h"
 
 namespace hgrid {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "node/commons.h"
+#include "node/health/commons.h"
 #include "node/loading/map_loader.h"
 #include "node/loading/retry_schedule.h"
 #include "node/loading/robot_loader.h"

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "hgrid_proximity/bodies/name.h"
+#include "node/health/guarded.h"
 #include "node/loading/missing_note.h"
-#include "node/services/guarded.h"
 
 namespace hgrid {
 

@@ -11,17 +11,14 @@
 #include <string>
 #include <vector>
 
-#include "node/diagnostics/ledger.h"
-#include "node/diagnostics/start_grace.h"
+#include "node/health/ledger.h"
+#include "node/health/start_grace.h"
 #include "node/loading/pending_loads.h"
 #include "node/params/params.h"
 #include "node/sources/map_source.h"
 #include "node/tick/tick_jobs.h"
 
 namespace hgrid {
-
-/// Maps that services loaded from a file or removed, by name. nullopt: removed.
-using StoredMaps = std::map<std::string, std::optional<MapParams>>;
 
 /// Puts the configured maps into the world: maps from files at the start, maps from topics when a message arrives.
 ///

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "node/params/params.h"
-#include "node/sources/robot_change.h"
-#include "node/sources/robot_source.h"
-#include "node/world/robot_entry.h"
+#include "node/robots/robot_change.h"
+#include "node/robots/robot_entry.h"
+#include "node/robots/robot_source.h"
 
 namespace hgrid {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "node/diagnostics/ledger.h"
+#include "node/health/ledger.h"
 #include "node/loading/missing_note.h"
 #include "node/world/robot_edits.h"
 #include "node/world/world.h"

@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "hgrid_proximity/refusal.h"
-#include "node/diagnostics/node_health.h"
+#include "node/health/node_health.h"
 #include "node/loading/description_watch.h"
 #include "node/loading/pending_loads.h"
 #include "node/loading/robot_changes.h"
 #include "node/params/params.h"
-#include "node/sources/robot_source.h"
+#include "node/robots/robot_source.h"
 #include "node/tick/change_world.h"
 #include "node/tick/tick_jobs.h"
 #include "node/world/robot_models.h"

@@ -11,10 +11,10 @@
 
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/pairs/pair_rule.h"
-#include "node/messages/from_messages.h"
-#include "node/sources/body_params.h"
-#include "node/tf/frame_names.h"
+#include "node/params/body_params.h"
+#include "node/text/frame_names.h"
 #include "node/time/ros_time.h"
+#include "node/wire/from_messages.h"
 
 namespace hgrid {
 namespace {

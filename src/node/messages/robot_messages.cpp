@@ -12,7 +12,7 @@
 
 #include "hgrid_proximity/bodies/name.h"
 #include "node/sources/obstacle_change.h"
-#include "node/tf/frame_names.h"
+#include "node/text/frame_names.h"
 
 namespace hgrid {
 namespace {

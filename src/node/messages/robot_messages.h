@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "node/params/params.h"
-#include "node/sources/robot_change.h"
+#include "node/robots/robot_change.h"
 
 namespace hgrid {
 

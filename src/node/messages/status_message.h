@@ -4,10 +4,10 @@
 
 #include <hgrid_proximity/Status.h>
 
-#include "node/diagnostics/ledger.h"
+#include "node/health/ledger.h"
 #include "node/messages/to_messages.h"
 #include "node/params/params.h"
-#include "node/tick/stopwatch.h"
+#include "node/threads/stopwatch.h"
 
 namespace hgrid {
 

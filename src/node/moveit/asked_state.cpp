@@ -7,11 +7,11 @@
 #include <map>
 #include <utility>
 
-#include "node/messages/from_messages.h"
 #include "node/states/followers.h"
 #include "node/states/present_joints.h"
 #include "node/states/robot_choice.h"
-#include "node/tf/frame_names.h"
+#include "node/text/frame_names.h"
+#include "node/wire/from_messages.h"
 
 namespace hgrid {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "node/commons.h"
+#include "node/health/commons.h"
 #include "node/moveit/scene_services.h"
 #include "node/moveit/scene_topics.h"
 #include "node/moveit/validity_service.h"

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "hgrid_proximity/bodies/name.h"
-#include "node/messages/from_messages.h"
 #include "node/messages/obstacle_messages.h"
 #include "node/moveit/scene_matrix.h"
 #include "node/moveit/scene_plane.h"
-#include "node/tf/frame_names.h"
+#include "node/text/frame_names.h"
+#include "node/wire/from_messages.h"
 
 namespace hgrid {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "hgrid_proximity/narrow/narrow_phase.h"
-#include "node/moveit/scene_types.h"
 #include "node/params/params.h"
 #include "node/sources/obstacle_change.h"
+#include "node/wire/scene_types.h"
 #include "node/world/link_paddings.h"
 #include "node/world/matrix_rules.h"
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "node/moveit/scene_types.h"
+#include "node/wire/scene_types.h"
 #include "node/world/matrix_rules.h"
 
 namespace hgrid {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "hgrid_proximity/bodies/name.h"
-#include "node/diagnostics/ledger.h"
+#include "node/health/ledger.h"
 #include "node/moveit/scene_octomap.h"
 #include "node/wire/checked.h"
 #include "node/world/rules_in_force.h"

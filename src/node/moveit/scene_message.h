@@ -10,8 +10,8 @@
 #include "node/moveit/scene_changes.h"
 #include "node/moveit/scene_gaps.h"
 #include "node/moveit/scene_queue.h"
-#include "node/moveit/scene_types.h"
 #include "node/tick/change_world.h"
+#include "node/wire/scene_types.h"
 
 namespace hgrid {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "node/loading/missing_note.h"
-#include "node/messages/from_messages.h"
+#include "node/wire/from_messages.h"
 #include "node/world/world.h"
 
 namespace hgrid {

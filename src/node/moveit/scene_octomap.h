@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
-#include "node/diagnostics/ledger.h"
-#include "node/moveit/scene_types.h"
+#include "node/health/ledger.h"
 #include "node/sources/map_source.h"
 #include "node/tick/tick_jobs.h"
+#include "node/wire/scene_types.h"
 
 namespace hgrid {
 

@@ -7,8 +7,8 @@
 
 #include "geometry/rotation.h"
 #include "hgrid_proximity/refusal.h"
-#include "node/messages/from_messages.h"
 #include "node/messages/to_messages.h"
+#include "node/wire/from_messages.h"
 
 namespace hgrid {
 

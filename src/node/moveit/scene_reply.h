@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "node/moveit/scene_types.h"
 #include "node/tick/tick.h"
+#include "node/wire/scene_types.h"
 #include "node/world/matrix_rules.h"
 #include "node/world/placed_obstacle.h"
 

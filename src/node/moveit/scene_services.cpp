@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "node/health/guarded.h"
 #include "node/moveit/scene_message.h"
 #include "node/moveit/scene_reply.h"
-#include "node/services/guarded.h"
 #include "node/time/ros_time.h"
 #include "node/wire/checked.h"
 #include "node/world/world.h"

@@ -7,13 +7,13 @@
 
 #include <vector>
 
-#include "node/commons.h"
+#include "node/health/commons.h"
 #include "node/moveit/scene_changes.h"
 #include "node/moveit/scene_gaps.h"
 #include "node/moveit/scene_octomap.h"
-#include "node/moveit/scene_types.h"
 #include "node/tick/change_world.h"
 #include "node/tick/newest_tick.h"
+#include "node/wire/scene_types.h"
 
 namespace hgrid {
 

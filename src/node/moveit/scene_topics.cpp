@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "node/services/guarded.h"
+#include "node/health/guarded.h"
 #include "node/tick/match_names.h"
 #include "node/time/ros_time.h"
 #include "node/wire/bytes_subscriber.h"

@@ -12,13 +12,13 @@
 #include <thread>
 #include <vector>
 
-#include "node/commons.h"
-#include "node/immediate_callbacks.h"
+#include "node/health/commons.h"
 #include "node/moveit/scene_changes.h"
 #include "node/moveit/scene_gaps.h"
 #include "node/moveit/scene_message.h"
 #include "node/moveit/scene_octomap.h"
 #include "node/moveit/scene_queue.h"
+#include "node/threads/immediate_callbacks.h"
 #include "node/tick/newest_tick.h"
 #include "node/tick/tick_jobs.h"
 

@@ -5,8 +5,8 @@
 #include <boost/function.hpp>
 #include <utility>
 
+#include "node/health/guarded.h"
 #include "node/moveit/state_validity.h"
-#include "node/services/guarded.h"
 #include "node/wire/checked.h"
 
 namespace hgrid {

@@ -5,7 +5,7 @@
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
 
-#include "node/commons.h"
+#include "node/health/commons.h"
 #include "node/moveit/validity_types.h"
 #include "node/services/envelope/service_envelope.h"
 #include "node/tf/transform_lookup.h"

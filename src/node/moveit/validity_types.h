@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "node/moveit/scene_types.h"
+#include "node/wire/scene_types.h"
 
 namespace hgrid {
 namespace moveit {

@@ -10,7 +10,7 @@
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/pairs/pair_rule.h"
 #include "hgrid_proximity/refusal.h"
-#include "node/tf/frame_names.h"
+#include "node/text/frame_names.h"
 
 namespace hgrid {
 namespace {

@@ -16,7 +16,7 @@
 #include "node/params/room_overlaps.h"
 #include "node/params/room_params.h"
 #include "node/params/tracker_params.h"
-#include "node/tf/frame_names.h"
+#include "node/text/frame_names.h"
 
 namespace hgrid {
 namespace {
@@ -24,14 +24,37 @@ namespace {
 constexpr const char* kReserved[] = {"obstacle", "map", "cloud", "track"};  // other sources have these names
 
 /// Parameters that are limits. Earlier versions read them without `limits/`.
-constexpr const char* kNowLimits[] = {
-    "allow_flat",         "event_queue", "history_bytes",         "lease_max",             "max_batch",
-    "max_bodies",         "max_events",  "max_description_bytes", "max_description_depth", "max_frames",
-    "max_future",         "max_hits",    "max_links",             "max_listed",            "max_maps",
-    "max_mesh_bytes",     "max_pairs",   "max_mesh_triangles",    "max_planes",            "max_robots",
-    "max_rules",          "max_samples", "max_size",              "max_sync_wait",         "mesh_memory",
-    "mesh_timeout",       "min_size",    "tf_cache",              "tf_queue_bytes",        "track_queue_bytes",
-    "world_limit"};
+constexpr const char* kNowLimits[] = {"allow_flat",
+                                      "event_queue",
+                                      "history_bytes",
+                                      "lease_max",
+                                      "max_batch",
+                                      "max_bodies",
+                                      "max_events",
+                                      "max_description_bytes",
+                                      "max_description_depth",
+                                      "max_frames",
+                                      "max_future",
+                                      "max_hits",
+                                      "max_links",
+                                      "max_listed",
+                                      "max_maps",
+                                      "max_mesh_bytes",
+                                      "max_pairs",
+                                      "max_mesh_triangles",
+                                      "max_planes",
+                                      "max_robots",
+                                      "max_rules",
+                                      "max_samples",
+                                      "max_size",
+                                      "max_sync_wait",
+                                      "mesh_memory",
+                                      "mesh_timeout",
+                                      "min_size",
+                                      "tf_cache",
+                                      "tf_queue_bytes",
+                                      "track_queue_bytes",
+                                      "world_limit"};
 
 /// Other names that earlier versions read, and what takes their place.
 struct FormerName {
@@ -316,8 +339,9 @@ Params readParams(XmlRpc::XmlRpcValue values, std::vector<std::string>& errors) 
             std::string("~map/crop_min is ") + text(params.map_crop_min[axis]) + " m along " + "xyz"[axis] +
                 " and ~map/crop_max is " + text(params.map_crop_max[axis]) + " m; crop_min must be at most crop_max");
   }
-  require(params.min_size < params.max_size,
-          "~limits/min_size is " + text(params.min_size) + " m; it must be below ~limits/max_size, " + text(params.max_size) + " m");
+  require(params.min_size < params.max_size, "~limits/min_size is " + text(params.min_size) +
+                                                 " m; it must be below ~limits/max_size, " + text(params.max_size) +
+                                                 " m");
   require(params.allowed_pairs.size() <= static_cast<std::size_t>(params.max_rules),
           "~allowed_pairs has " + std::to_string(params.allowed_pairs.size()) + " rules; at most ~limits/max_rules, " +
               std::to_string(params.max_rules) + ", are allowed");

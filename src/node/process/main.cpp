@@ -12,8 +12,8 @@
 #include "node/process/command_line.h"
 #include "node/process/name_holder.h"
 #include "node/process/name_watch.h"
+#include "node/process/proximity_node.h"
 #include "node/process/shutdown.h"
-#include "node/proximity_node.h"
 
 int main(int argc, char** argv) {
   hgrid::CommandLine line;

@@ -5,10 +5,10 @@
 #include <chrono>
 #include <utility>
 
+#include "node/health/guarded.h"
 #include "node/messages/distances_messages.h"
 #include "node/messages/to_messages.h"
 #include "node/messages/world_state_message.h"
-#include "node/services/guarded.h"
 
 namespace hgrid {
 namespace {

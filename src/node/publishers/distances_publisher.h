@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "hgrid_proximity/distances/pair_meter.h"
-#include "node/commons.h"
-#include "node/tick/newest_only.h"
+#include "node/health/commons.h"
+#include "node/threads/newest_only.h"
 #include "node/tick/tick.h"
 
 namespace hgrid {

@@ -13,8 +13,8 @@
 #include <optional>
 #include <vector>
 
-#include "node/immediate_callbacks.h"
 #include "node/markers/query_markers.h"
+#include "node/threads/immediate_callbacks.h"
 #include "node/tick/tick.h"
 
 namespace hgrid {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-#include "node/commons.h"
+#include "node/health/commons.h"
 #include "node/publishers/distances_publisher.h"
 #include "node/publishers/markers_publisher.h"
 #include "node/publishers/streams_publisher.h"

@@ -7,9 +7,9 @@
 
 #include <memory>
 
-#include "node/commons.h"
+#include "node/health/commons.h"
 #include "node/messages/pairs_messages.h"
-#include "node/tick/stopwatch.h"
+#include "node/threads/stopwatch.h"
 #include "node/tick/tick.h"
 
 namespace hgrid {

@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/publishers/structure_publisher.h"
 
+#include "node/health/guarded.h"
 #include "node/messages/bodies_message.h"
 #include "node/messages/rule_messages.h"
-#include "node/services/guarded.h"
 
 namespace hgrid {
 

@@ -8,9 +8,9 @@
 #include <atomic>
 #include <memory>
 
-#include "node/commons.h"
+#include "node/health/commons.h"
 #include "node/publishers/structure_watch.h"
-#include "node/tick/newest_only.h"
+#include "node/threads/newest_only.h"
 #include "node/tick/tick.h"
 
 namespace hgrid {

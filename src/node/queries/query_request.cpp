@@ -6,9 +6,9 @@
 
 #include "bodies/nearest_names.h"
 #include "hgrid_proximity/bodies/name.h"
-#include "node/messages/from_messages.h"
 #include "node/queries/request_checks.h"
-#include "node/tf/frame_names.h"
+#include "node/text/frame_names.h"
+#include "node/wire/from_messages.h"
 
 namespace hgrid {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include "node/queries/quick_query.h"
 
-#include "node/tf/frame_names.h"
+#include "node/text/frame_names.h"
 
 namespace hgrid {
 

@@ -9,8 +9,8 @@
 #include <boost/function.hpp>
 #include <utility>
 
+#include "node/health/guarded.h"
 #include "node/reconfigure/reconfigure_messages.h"
-#include "node/services/guarded.h"
 #include "node/world/world.h"
 
 namespace hgrid {

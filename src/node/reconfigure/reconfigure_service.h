@@ -11,7 +11,7 @@
 #include <memory>
 #include <string>
 
-#include "node/diagnostics/ledger.h"
+#include "node/health/ledger.h"
 #include "node/params/settings.h"
 #include "node/tick/change_world.h"
 #include "node/wire/checked.h"

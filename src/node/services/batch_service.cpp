@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "node/messages/from_messages.h"
 #include "node/queries/batch_answers.h"
 #include "node/queries/request_checks.h"
 #include "node/services/asked_tick.h"
+#include "node/wire/from_messages.h"
 
 namespace hgrid {
 namespace {

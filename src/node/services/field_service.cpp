@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "hgrid_proximity/queries/distance_field.h"
-#include "node/messages/from_messages.h"
 #include "node/messages/to_messages.h"
 #include "node/queries/query_request.h"
 #include "node/queries/request_checks.h"
 #include "node/services/asked_tick.h"
+#include "node/wire/from_messages.h"
 
 namespace hgrid {
 namespace {

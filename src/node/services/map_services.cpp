@@ -7,8 +7,8 @@
 
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/refusal.h"
-#include "node/messages/from_messages.h"
-#include "node/tf/frame_names.h"
+#include "node/text/frame_names.h"
+#include "node/wire/from_messages.h"
 #include "node/world/world.h"
 
 namespace hgrid {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "node/sources/mesh_policy.h"
+#include "node/params/mesh_policy.h"
 
 namespace hgrid {
 

@@ -4,7 +4,7 @@
 
 #include <ros/node_handle.h>
 
-#include "node/commons.h"
+#include "node/health/commons.h"
 #include "node/loading/loading.h"
 #include "node/services/allowed_services.h"
 #include "node/services/batch_service.h"

@@ -7,11 +7,11 @@
 #include <optional>
 #include <utility>
 
-#include "node/messages/from_messages.h"
 #include "node/messages/hit_messages.h"
 #include "node/queries/quick_query.h"
 #include "node/queries/request_checks.h"
-#include "node/quick_turn.h"
+#include "node/threads/quick_turn.h"
+#include "node/wire/from_messages.h"
 
 namespace hgrid {
 namespace {

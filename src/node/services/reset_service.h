@@ -3,8 +3,8 @@
 #pragma once
 
 #include "node/services/envelope/service_envelope.h"
+#include "node/threads/stopwatch.h"
 #include "node/tick/change_world.h"
-#include "node/tick/stopwatch.h"
 
 namespace hgrid {
 

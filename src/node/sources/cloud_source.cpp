@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "hgrid_proximity/refusal.h"
-#include "node/services/guarded.h"
-#include "node/tf/frame_names.h"
+#include "node/health/guarded.h"
+#include "node/text/frame_names.h"
 #include "node/tick/tick.h"
 #include "node/time/ros_time.h"
 
@@ -167,7 +167,8 @@ void CloudSource::noteTooNear(Time stamp, Time now, std::uint64_t too_near, cons
 /// setting the wall clock changes no age.
 Time CloudSource::cellTime() const { return simulated_ ? rosNow() : steadyNow(); }
 
-/// Waits until tf knows the poses of the sensor and of the robot's own shapes at the stamp, at most ~limits/max_sync_wait.
+/// Waits until tf knows the poses of the sensor and of the robot's own shapes at the stamp, at most
+/// ~limits/max_sync_wait.
 void CloudSource::waitFor(const std::string& world_frame, const std::string& frame, Time stamp) const {
   std::vector<std::string> frames;
   if (self_shapes_.wanted()) frames = self_shapes_.frames();

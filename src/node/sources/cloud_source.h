@@ -13,8 +13,8 @@
 #include <string>
 
 #include "hgrid_proximity/maps/cloud_cells.h"
-#include "node/diagnostics/ledger.h"
-#include "node/diagnostics/start_grace.h"
+#include "node/health/ledger.h"
+#include "node/health/start_grace.h"
 #include "node/params/params.h"
 #include "node/sources/loaded_map.h"
 #include "node/sources/self_shapes.h"

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "node/sources/body_params.h"
+#include "node/params/body_params.h"
 
 namespace hgrid {
 

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <chrono>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "hgrid_proximity/bodies/body.h"
@@ -20,6 +22,9 @@ struct LoadedMap {
   Time stamp{0};    // stamp of the message; 0: it has no stamp, or the map was read from a file
   Moment received;  // when the message arrived or the file was read
 };
+
+/// Maps that services loaded from a file or removed, by name. nullopt: removed.
+using StoredMaps = std::map<std::string, std::optional<MapParams>>;
 
 /// The recent cells of a cloud, which can be put into the world.
 struct LoadedCloud {

@@ -7,7 +7,7 @@
 
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/refusal.h"
-#include "node/tf/frame_names.h"
+#include "node/text/frame_names.h"
 #include "node/time/ros_time.h"
 
 namespace hgrid {

@@ -7,7 +7,7 @@
 
 #include "hgrid_proximity/adapters/octomap.h"
 #include "hgrid_proximity/narrow/narrow_phase.h"
-#include "node/diagnostics/ledger.h"
+#include "node/health/ledger.h"
 #include "node/params/params.h"
 #include "node/sources/loaded_map.h"
 #include "node/sources/self_shapes.h"

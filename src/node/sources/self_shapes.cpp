@@ -4,7 +4,7 @@
 
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/refusal.h"
-#include "node/sources/body_params.h"
+#include "node/params/body_params.h"
 #include "node/tick/tick.h"
 
 namespace hgrid {

@@ -19,9 +19,9 @@
 
 #include "hgrid_proximity/pairs/pair_rule.h"
 #include "hgrid_proximity/refusal.h"
+#include "node/params/body_params.h"
 #include "node/params/obstacle_params.h"
 #include "node/params/yaml_value.h"
-#include "node/sources/body_params.h"
 #include "node/state/state_files.h"
 
 namespace hgrid {

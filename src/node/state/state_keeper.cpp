@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "node/services/guarded.h"
+#include "node/health/guarded.h"
 #include "node/state/stored_items.h"
 #include "node/world/world.h"
 

@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "node/commons.h"
+#include "node/health/commons.h"
 #include "node/state/state_edit.h"
 #include "node/state/state_folder.h"
 #include "node/state/waiting_changes.h"

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <utility>
 
-#include "node/sources/body_params.h"
+#include "node/params/body_params.h"
 #include "node/text/body_text.h"
 
 namespace hgrid {

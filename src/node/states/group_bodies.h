@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hgrid_proximity/world/snapshot.h"
-#include "node/sources/robot_source.h"
+#include "node/robots/robot_source.h"
 
 namespace hgrid {
 

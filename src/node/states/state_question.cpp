@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "hgrid_proximity/bodies/joined_robots.h"
-#include "node/messages/from_messages.h"
 #include "node/queries/request_checks.h"
 #include "node/states/followers.h"
 #include "node/states/present_joints.h"
 #include "node/states/robot_choice.h"
+#include "node/wire/from_messages.h"
 
 namespace hgrid {
 namespace {

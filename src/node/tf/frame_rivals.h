@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "node/diagnostics/ledger.h"
+#include "node/health/ledger.h"
 #include "node/tf/frame_claims.h"
 
 namespace hgrid {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "node/tf/frame_names.h"
+#include "node/text/frame_names.h"
 #include "node/tf/transform_check.h"
 
 namespace hgrid {

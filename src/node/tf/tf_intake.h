@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "node/diagnostics/ledger.h"
+#include "node/health/ledger.h"
 #include "node/tf/frame_pace.h"
 #include "node/tf/frame_rivals.h"
 #include "node/tf/publisher_clocks.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "node/diagnostics/ledger.h"
+#include "node/health/ledger.h"
 #include "node/time/clock_watch.h"
 #include "node/wire/message_bytes.h"
 

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "node/immediate_callbacks.h"
 #include "node/tf/tf_listener.h"
 #include "node/tf/tf_queue.h"
+#include "node/threads/immediate_callbacks.h"
 #include "node/wire/poses_message.h"
 #include "node/wire/transform_slices.h"
 

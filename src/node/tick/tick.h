@@ -12,11 +12,11 @@
 #include "hgrid_proximity/history/history.h"
 #include "hgrid_proximity/world/scene.h"
 #include "node/params/settings.h"
+#include "node/robots/model_report.h"
+#include "node/robots/robot_entry.h"
 #include "node/tf/publisher_clocks.h"
+#include "node/tick/body_trouble.h"
 #include "node/time/clock_watch.h"
-#include "node/world/body_trouble.h"
-#include "node/world/model_report.h"
-#include "node/world/robot_entry.h"
 
 namespace hgrid {
 
@@ -38,7 +38,7 @@ struct Tick {
   std::vector<ClockOffset> clock_offsets;     ///< publishers whose stamps are constantly early or late
   std::shared_ptr<const ModelReport> models;
   std::shared_ptr<const RobotEntries> robots;  ///< all robots, by name, also those that are absent or not loaded
-  HistoryExtent history;  ///< the past ticks that queries could ask for when this tick was made
+  HistoryExtent history;                       ///< the past ticks that queries could ask for when this tick was made
   TickTimes times;
   int threads = 0;                         ///< number of threads that made the snapshot
   std::size_t frames = 0;                  ///< number of frames that a transform has placed

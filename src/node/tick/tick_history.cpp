@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "hgrid_proximity/refusal.h"
-#include "node/services/guarded.h"
+#include "node/health/guarded.h"
 #include "node/time/ros_time.h"
 
 namespace hgrid {

@@ -8,9 +8,9 @@
 #include <memory>
 
 #include "hgrid_proximity/history/history.h"
-#include "node/diagnostics/ledger.h"
+#include "node/health/ledger.h"
 #include "node/params/params.h"
-#include "node/tick/newest_only.h"
+#include "node/threads/newest_only.h"
 #include "node/tick/tick.h"
 
 namespace hgrid {

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "node/services/guarded.h"
+#include "node/health/guarded.h"
 
 namespace hgrid {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "node/diagnostics/ledger.h"
+#include "node/health/ledger.h"
 
 namespace hgrid {
 

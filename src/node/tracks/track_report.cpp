@@ -10,10 +10,10 @@
 
 #include "hgrid_proximity/bodies/name.h"
 #include "hgrid_proximity/refusal.h"
-#include "node/messages/from_messages.h"
-#include "node/tf/frame_names.h"
+#include "node/text/frame_names.h"
 #include "node/time/ros_time.h"
 #include "node/wire/checked.h"
+#include "node/wire/from_messages.h"
 
 namespace hgrid {
 namespace {
@@ -78,8 +78,9 @@ class Reader {
     const Time stamp = fromRos(given);
     const double ahead = seconds(stamp - report_.arrival.ros);
     if (ahead <= max_future_) return stamp;
-    throw Refusal(Code::clock, what + " is stamped " + secondsText(ahead) + " in the future; at most ~limits/max_future, " +
-                                   secondsText(max_future_) + ", is allowed");
+    throw Refusal(Code::clock, what + " is stamped " + secondsText(ahead) +
+                                   " in the future; at most ~limits/max_future, " + secondsText(max_future_) +
+                                   ", is allowed");
   }
 
   void take(const Marker& marker, std::map<std::string, const Marker*>& newest) {

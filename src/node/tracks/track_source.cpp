@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "hgrid_proximity/refusal.h"
-#include "node/services/guarded.h"
+#include "node/health/guarded.h"
 #include "node/wire/bytes_subscriber.h"
 
 namespace hgrid {
@@ -97,7 +97,8 @@ void TrackSource::handle(const ReceivedTracks& received) {
 void TrackSource::take(const ReceivedTracks& received) {
   if (received.message->size > static_cast<std::size_t>(params_.track_queue_bytes)) {
     throw Refusal(Code::limit, "it has " + std::to_string(received.message->size) + " bytes; at most " +
-                                   std::to_string(params_.track_queue_bytes) + " are allowed (~limits/track_queue_bytes)");
+                                   std::to_string(params_.track_queue_bytes) +
+                                   " are allowed (~limits/track_queue_bytes)");
   }
   const std::shared_ptr<const Tick> tick = newest_();
   if (!tick || tick->world_frame.empty()) {

@@ -12,11 +12,11 @@
 #include <thread>
 #include <vector>
 
-#include "node/diagnostics/ledger.h"
-#include "node/diagnostics/start_grace.h"
-#include "node/immediate_callbacks.h"
+#include "node/health/ledger.h"
+#include "node/health/start_grace.h"
 #include "node/params/params.h"
 #include "node/tf/transform_lookup.h"
+#include "node/threads/immediate_callbacks.h"
 #include "node/tick/tick.h"
 #include "node/tracks/track_list.h"
 #include "node/tracks/track_queue.h"

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "hgrid_proximity/refusal.h"
-#include "node/quick_turn.h"
+#include "node/threads/quick_turn.h"
 #include "node/wire/message_walk.h"
 
 namespace hgrid {

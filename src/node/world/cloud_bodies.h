@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hgrid_proximity/world/scene.h"
-#include "node/diagnostics/ledger.h"
+#include "node/health/ledger.h"
 #include "node/params/params.h"
 #include "node/sources/cloud_news.h"
 #include "node/sources/source_id.h"

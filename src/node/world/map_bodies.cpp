@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "node/sources/body_params.h"
+#include "node/params/body_params.h"
 
 namespace hgrid {
 

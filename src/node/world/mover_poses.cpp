@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "node/world/find_trouble.h"
+
 namespace hgrid {
 
 MoverPoses::MoverPoses(const Params& params, const TfIntake& intake, Scene& scene, Movers& movers, Ledger& ledger)

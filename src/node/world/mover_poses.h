@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hgrid_proximity/world/scene.h"
-#include "node/diagnostics/ledger.h"
+#include "node/health/ledger.h"
 #include "node/params/params.h"
 #include "node/tf/frame_poses.h"
 #include "node/tick/tick.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "hgrid_proximity/bodies/name.h"
-#include "node/sources/body_params.h"
+#include "node/params/body_params.h"
 #include "node/sources/configured_obstacle.h"
 #include "node/world/rules_in_force.h"
 

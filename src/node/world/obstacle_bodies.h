@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "hgrid_proximity/narrow/narrow_phase.h"
-#include "node/diagnostics/ledger.h"
+#include "node/health/ledger.h"
 #include "node/params/params.h"
 #include "node/sources/obstacle_change.h"
 #include "node/tf/transform_lookup.h"

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "node/params/params.h"
+#include "node/robots/robot_entry.h"
 #include "node/sources/obstacle_change.h"
 #include "node/tf/transform_lookup.h"
-#include "node/world/robot_entry.h"
 
 namespace hgrid {
 
@@ -59,8 +59,8 @@ bool isAtSamePlace(const PlacedObstacle& a, const PlacedObstacle& b);
 
 ///@{
 /// Changes the place of an obstacle.
-/// @throws Refusal out_of_range (~limits/world_limit); unknown_frame or extrapolation if the pose of a frame is not known at
-/// the time for which it is needed, or older than ~stale_after
+/// @throws Refusal out_of_range (~limits/world_limit); unknown_frame or extrapolation if the pose of a frame is not
+/// known at the time for which it is needed, or older than ~stale_after
 void put(PlacedObstacle& obstacle, const ObstaclePlace& place, const Surroundings& around);
 /// @throws also bad_id, unknown_id if no robot has the link, and conflict if several robots have a link of this name
 void attach(PlacedObstacle& obstacle, const Attachment& attachment, const Surroundings& around);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hgrid_proximity/world/scene.h"
-#include "node/sources/robot_change.h"
+#include "node/robots/robot_change.h"
 #include "node/sources/source_id.h"
 #include "node/world/link_paddings.h"
 #include "node/world/missing_sources.h"

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "node/params/params.h"
-#include "node/sources/robot_change.h"
-#include "node/world/robot_entry.h"
+#include "node/robots/robot_change.h"
+#include "node/robots/robot_entry.h"
 
 namespace hgrid {
 

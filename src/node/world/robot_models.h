@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "node/params/params.h"
-#include "node/sources/robot_source.h"
-#include "node/sources/robot_spec.h"
-#include "node/world/model_report.h"
-#include "node/world/robot_entry.h"
+#include "node/robots/model_report.h"
+#include "node/robots/robot_entry.h"
+#include "node/robots/robot_source.h"
+#include "node/robots/robot_spec.h"
 
 namespace hgrid {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "hgrid_proximity/pairs/pair_rule.h"
-#include "node/loading/map_loader.h"
+#include "node/robots/robot_entry.h"
+#include "node/sources/loaded_map.h"
 #include "node/world/placed_obstacle.h"
-#include "node/world/robot_entry.h"
 
 namespace hgrid {
 

@@ -9,7 +9,7 @@
 
 #include "hgrid_proximity/narrow/narrow_phase.h"
 #include "hgrid_proximity/world/scene.h"
-#include "node/diagnostics/ledger.h"
+#include "node/health/ledger.h"
 #include "node/params/params.h"
 #include "node/tick/tick.h"
 #include "node/tracks/track_list.h"

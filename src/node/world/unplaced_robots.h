@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "node/robots/robot_entry.h"
 #include "node/tf/frame_table.h"
 #include "node/world/movers.h"
-#include "node/world/robot_entry.h"
 
 namespace hgrid {
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hgrid_proximity/refusal.h"
+#include "node/world/find_trouble.h"
 #include "node/world/unplaced_robots.h"
 
 namespace hgrid {
@@ -111,7 +112,8 @@ void World::setMap(const LoadedMap& map) {
   }
   const SourceId source = SourceId::ofMap(map.params.name);
   if (!maps_.has(source) && maps_.size() >= static_cast<std::size_t>(params_.max_maps)) {
-    throw Refusal(Code::limit, what + " would be one map too many; ~limits/max_maps is " + std::to_string(params_.max_maps) +
+    throw Refusal(Code::limit, what + " would be one map too many; ~limits/max_maps is " +
+                                   std::to_string(params_.max_maps) +
                                    ": remove a map with ~clear_map, or give it the name of a map to replace");
   }
   const Body body = mapBodyOf(map, world_frame_, params_);

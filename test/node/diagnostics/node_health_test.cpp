@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "src/node/diagnostics/node_health.h"
+#include "src/node/health/node_health.h"
 
 #include <gtest/gtest.h>
 

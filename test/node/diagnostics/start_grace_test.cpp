@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "src/node/diagnostics/start_grace.h"
+#include "src/node/health/start_grace.h"
 
 #include <gtest/gtest.h>
 

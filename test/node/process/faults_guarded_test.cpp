@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "hgrid_proximity/narrow/core_narrow_phase.h"
-#include "src/node/services/guarded.h"
+#include "src/node/health/guarded.h"
 #include "src/node/tick/tick_jobs.h"
 #include "src/node/world/world.h"
 #include "test/node/support/settings.h"

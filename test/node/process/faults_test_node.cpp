@@ -19,7 +19,7 @@
 #include <stdexcept>
 
 #include "hgrid_proximity/narrow/core_narrow_phase.h"
-#include "src/node/proximity_node.h"
+#include "src/node/process/proximity_node.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "src/node/housekeeping.h"
+#include "src/node/process/housekeeping.h"
 
 #include <gtest/gtest.h>
 

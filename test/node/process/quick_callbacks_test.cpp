@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "src/node/quick_callbacks.h"
+#include "src/node/threads/quick_callbacks.h"
 
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>
@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-#include "src/node/quick_turn.h"
+#include "src/node/threads/quick_turn.h"
 
 namespace hgrid {
 namespace test {

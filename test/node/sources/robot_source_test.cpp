@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 //
 // Tests the speeds of the links of a robot. It needs no ROS master.
-#include "src/node/sources/robot_source.h"
+#include "src/node/robots/robot_source.h"
 
 #include <gtest/gtest.h>
 

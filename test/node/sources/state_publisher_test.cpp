@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "src/node/sources/state_publisher.h"
+#include "src/node/robots/state_publisher.h"
 
 #include <gtest/gtest.h>
 

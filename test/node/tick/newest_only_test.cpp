@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "src/node/tick/newest_only.h"
+#include "src/node/threads/newest_only.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "src/node/tick/realtime.h"
+#include "src/node/threads/realtime.h"
 
 #include <gtest/gtest.h>
 #include <pthread.h>

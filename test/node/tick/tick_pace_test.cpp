@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "src/node/tick/tick_pace.h"
+#include "src/node/loop/tick_pace.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: the hgrid_proximity authors
-#include "src/node/world/idle_patterns.h"
+#include "src/node/robots/idle_patterns.h"
 
 #include <gtest/gtest.h>
 

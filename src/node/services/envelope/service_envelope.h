@@ -11,11 +11,11 @@
 #include <string>
 #include <utility>
 
-#include "node/diagnostics/ledger.h"
-#include "node/quick_turn.h"
+#include "node/health/guarded.h"
+#include "node/health/ledger.h"
 #include "node/services/envelope/answer_tick.h"
 #include "node/services/envelope/reply.h"
-#include "node/services/guarded.h"
+#include "node/threads/quick_turn.h"
 #include "node/tick/newest_tick.h"
 #include "node/wire/checked.h"
 
