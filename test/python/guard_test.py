@@ -18,7 +18,7 @@ from sensor_msgs.msg import JointState
 from turning_arm import TO_POST, Arm, wait
 
 JOINTS = ["shoulder", "slide"]
-TYPES, MELODIC = Types(), Types(noetic=False)
+TYPES = Types()
 TYPES["DisplayTrajectory"]  # makes the classes of its parts, too
 TYPES["actionlib_msgs/GoalStatusArray"]
 STATUS = TYPES["actionlib_msgs/GoalStatus"]
@@ -201,12 +201,11 @@ class Guard(unittest.TestCase):
         goal = TYPES["control_msgs/FollowJointTrajectoryActionGoal"]()
         goal.goal.trajectory = path
         messages = [("arm/command", path), ("arm/goal", goal)]
-        for types in (TYPES, MELODIC):
-            # Its parts follow one another. The second one moves another joint.
-            parts = [trajectory((6, 3), joints=["shoulder"]), trajectory((0, 0.25), (2, 0.3), joints=["slide"])]
-            display = types["DisplayTrajectory"]()
-            display.trajectory = [types["RobotTrajectory"](joint_trajectory=part) for part in parts]
-            messages.append(("display", display))
+        # Its parts follow one another. The second one moves another joint.
+        parts = [trajectory((6, 3), joints=["shoulder"]), trajectory((0, 0.25), (2, 0.3), joints=["slide"])]
+        display = TYPES["DisplayTrajectory"]()
+        display.trajectory = [TYPES["RobotTrajectory"](joint_trajectory=part) for part in parts]
+        messages.append(("display", display))
         for topic, message in messages:
             with self.subTest(topic=topic, type=message._md5sum):
                 start = self.publish(topic, message)

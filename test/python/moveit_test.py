@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # SPDX-FileCopyrightText: the hgrid_proximity authors
 """MoveIt's topics and services, with its type names and MD5s, beside two running nodes. The node /proximity offers topics
-and services. The node /melodic/proximity offers only topics, which get messages of Melodic."""
+and services. The node /topics/proximity offers only topics."""
 import io
 import pathlib
 import random
@@ -21,11 +21,11 @@ from moving_ball import Ball
 from shape_msgs.msg import SolidPrimitive
 
 ADD, REMOVE, APPEND, MOVE = range(4)
-NOETIC, MELODIC = Types(), Types(noetic=False)
+TYPES = Types()
 MD5S = {
-    "CollisionObject": ("dbba710596087da521c07564160dfccb", "568a161b26dc46c54a5a07621ce82cf3"),
-    "AttachedCollisionObject": ("30199ef516f64c8bc1edb1084ce4584e", "3ceac60b21e85bbd6c5b0ab9d476b752"),
-    "PlanningScene": ("acfc50bcfd6c7b978066bfa7c786002c", "89aac6d20db967ba716cba5a86b1b9d5"),
+    "CollisionObject": "dbba710596087da521c07564160dfccb",
+    "AttachedCollisionObject": "30199ef516f64c8bc1edb1084ce4584e",
+    "PlanningScene": "acfc50bcfd6c7b978066bfa7c786002c",
 }
 SERVICE_MD5S = {
     "GetPlanningScene": "65cf69d3e7a0342e16374024d4eeef65",
@@ -41,24 +41,24 @@ def pose_at(x, y=0.0):
     return pose
 
 
-def sphere(name, x, radius=0.1, operation=ADD, types=NOETIC, frame="world"):
+def sphere(name, x, radius=0.1, operation=ADD, frame="world"):
     """Returns a message for an object of one sphere."""
-    message = types["CollisionObject"](id=name, operation=operation)
+    message = TYPES["CollisionObject"](id=name, operation=operation)
     message.header.frame_id = frame
     message.primitives = [SolidPrimitive(type=SolidPrimitive.SPHERE, dimensions=[radius])]
     message.primitive_poses = [pose_at(x)]
     return message
 
 
-def remove(name, types=NOETIC):
-    return types["CollisionObject"](id=name, operation=REMOVE)
+def remove(name):
+    return TYPES["CollisionObject"](id=name, operation=REMOVE)
 
 
-def attached(link, message, types=NOETIC, touch=()):
-    return types["AttachedCollisionObject"](link_name=link, object=message, touch_links=list(touch))
+def attached(link, message, touch=()):
+    return TYPES["AttachedCollisionObject"](link_name=link, object=message, touch_links=list(touch))
 
 
-class Cut(MELODIC["CollisionObject"]):
+class Cut(TYPES["CollisionObject"]):
     """A message of which only the first bytes are sent."""
 
     size = 0
@@ -73,8 +73,8 @@ class Cut(MELODIC["CollisionObject"]):
 class Node:
     """One of the two nodes, and publishers for its topics."""
 
-    def __init__(self, namespace, types):
-        self.namespace, self.types = namespace, types
+    def __init__(self, namespace):
+        self.namespace = namespace
         self.proximity = Proximity(namespace + "/proximity", timeout=60.0)
         self.publishers, self.sent = {}, 0
 
@@ -86,7 +86,7 @@ class Node:
         return self.publishers[topic]
 
     def send(self, topic, kind, message):
-        publisher = self.publisher(topic, self.types[kind])
+        publisher = self.publisher(topic, TYPES[kind])
         self.sent += 1
         publisher.publish(message)
 
@@ -100,7 +100,7 @@ class Node:
         self.send("planning_scene", "PlanningScene", self.scene(*objects, **options))
 
     def scene(self, objects=(), held=(), is_diff=True):
-        message = self.types["PlanningScene"](is_diff=is_diff)
+        message = TYPES["PlanningScene"](is_diff=is_diff)
         message.robot_state.joint_state.name = ["j"]  # MoveIt ignores a state of the robot without joints
         message.world.collision_objects, message.robot_state.attached_collision_objects = list(objects), list(held)
         return message
@@ -144,48 +144,47 @@ class MoveIt(unittest.TestCase):
     def setUpClass(cls):
         rospy.init_node("moveit_test")
         cls.ball = Ball()
-        cls.noetic, cls.melodic = Node("", NOETIC), Node("/melodic", MELODIC)
-        cls.get = rospy.ServiceProxy("get_planning_scene", NOETIC.service("GetPlanningScene"))
-        cls.apply = rospy.ServiceProxy("apply_planning_scene", NOETIC.service("ApplyPlanningScene"))
+        cls.noetic, cls.topics = Node(""), Node("/topics")
+        cls.get = rospy.ServiceProxy("get_planning_scene", TYPES.service("GetPlanningScene"))
+        cls.apply = rospy.ServiceProxy("apply_planning_scene", TYPES.service("ApplyPlanningScene"))
         cls.get.wait_for_service(60.0)
-        for node in (cls.noetic, cls.melodic):
+        for node in (cls.noetic, cls.topics):
             wait(lambda node=node: node.proximity.pairs().usable, "a complete world", 120.0)
 
     def tearDown(self):
-        for node in (self.noetic, self.melodic):
+        for node in (self.noetic, self.topics):
             node.planning_scene(is_diff=False)
             node.settled()
             wait(lambda node=node: node.world().complete, "a complete world")
 
     def scene(self, components):
-        request = NOETIC["PlanningSceneComponents"](components=components)
+        request = TYPES["PlanningSceneComponents"](components=components)
         return self.get(components=request).scene
 
     def names(self):
         return [each.id for each in self.scene(NAMES).world.collision_objects]
 
     def test_the_types_are_those_of_moveit(self):
-        for name, md5s in MD5S.items():
-            self.assertEqual((NOETIC[name]._md5sum, MELODIC[name]._md5sum), md5s)
+        for name, md5 in MD5S.items():
+            self.assertEqual(TYPES[name]._md5sum, md5)
         for name, md5 in SERVICE_MD5S.items():
-            self.assertEqual(NOETIC.service(name)._md5sum, md5)
+            self.assertEqual(TYPES.service(name)._md5sum, md5)
 
-    def test_messages_of_both_releases_change_the_world(self):
-        for node in (self.noetic, self.melodic):
-            types = node.types
-            node.object(sphere("part", 1, types=types))
+    def test_messages_change_the_world(self):
+        for node in (self.noetic, self.topics):
+            node.object(sphere("part", 1))
             wait(lambda node=node: node.names_at(1) == ["obstacle/part"], "the part")
-            move = types["CollisionObject"](id="part", operation=MOVE)
+            move = TYPES["CollisionObject"](id="part", operation=MOVE)
             move.primitive_poses = [pose_at(2)]
             node.object(move)
             wait(lambda node=node: node.names_at(2) == ["obstacle/part"], "the moved part")
-            node.attached(attached("ball", sphere("held", 0.5, types=types, frame="ball"), types))
+            node.attached(attached("ball", sphere("held", 0.5, frame="ball")))
             x = self.ball.x + 0.5
             wait(lambda node=node, x=x: node.names_at(x) == ["obstacle/held"], "the held part")
-            node.object(remove("", types))
+            node.object(remove(""))
             wait(lambda node=node: node.names_at(2) == [], "the removal")
             self.assertEqual(node.names_at(x), ["obstacle/held"])
-            node.planning_scene([sphere("new", 1, types=types)], is_diff=False)
+            node.planning_scene([sphere("new", 1)], is_diff=False)
             wait(lambda node=node: node.names_at(1) == ["obstacle/new"], "the new scene")
             self.assertEqual(node.names_at(x), [])
 
@@ -198,7 +197,7 @@ class MoveIt(unittest.TestCase):
         self.assertEqual((part.pose.position.x, part.primitives[0].dimensions), (1.0, (0.25,)))
         self.assertEqual(part.header.frame_id, "world")
         self.assertFalse(self.apply(scene=self.noetic.scene(held=[attached("ball", remove("part"))])).success)
-        hold = attached("ball", NOETIC["CollisionObject"](id="part"), touch=["ball"])
+        hold = attached("ball", TYPES["CollisionObject"](id="part"), touch=["ball"])
         self.assertTrue(self.apply(scene=self.noetic.scene(held=[hold])).success)
         self.assertEqual(self.names(), ["crate"])
         held = self.scene(ATTACHED).robot_state.attached_collision_objects
@@ -209,7 +208,7 @@ class MoveIt(unittest.TestCase):
     # Claim: paddings and the allowed collision matrix of a scene are in force until the next complete scene.
     def test_paddings_and_the_matrix_of_a_scene_are_in_force(self):
         scene = self.noetic.scene([sphere("part", self.ball.x + 0.3, 0.1)])
-        scene.link_padding = [NOETIC["LinkPadding"](link_name="ball", padding=0.15)]
+        scene.link_padding = [TYPES["LinkPadding"](link_name="ball", padding=0.15)]
         self.assertTrue(self.apply(scene=scene).success)
         self.assertEqual(self.noetic.proximity.query_sphere((self.ball.x - 0.2, 0, 0), 0.01).names, ["robot/ball"])
         padding = self.scene(PADDING).link_padding
@@ -217,7 +216,7 @@ class MoveIt(unittest.TestCase):
         self.assertIn("obstacle/part", self.near_pairs())
         matrix = self.noetic.scene()
         matrix.allowed_collision_matrix.entry_names = ["part", "ball"]
-        entry = NOETIC["AllowedCollisionEntry"]
+        entry = TYPES["AllowedCollisionEntry"]
         matrix.allowed_collision_matrix.entry_values = [entry(enabled=[False, True]), entry(enabled=[True, False])]
         self.assertTrue(self.apply(scene=matrix).success)
         self.assertNotIn("obstacle/part", self.near_pairs())
@@ -268,7 +267,7 @@ class MoveIt(unittest.TestCase):
     def test_services_that_are_not_configured_are_not_offered(self):
         for name in ("get_planning_scene", "apply_planning_scene"):
             with self.assertRaises(rospy.ROSException):
-                rospy.wait_for_service("/melodic/" + name, 0.2)
+                rospy.wait_for_service("/topics/" + name, 0.2)
 
     # Claim: while an object is missing because its message was refused, the world is not complete, and says why.
     def test_a_refused_message_makes_the_world_incomplete_until_it_is_mended(self):
@@ -285,19 +284,19 @@ class MoveIt(unittest.TestCase):
         self.assertTrue(self.noetic.world().complete, "nothing is missing if a removal is refused")
 
     def test_messages_that_are_cut_off_are_refused(self):
-        before = self.melodic.settled()
-        self.melodic.object(sphere("whole", 1, types=MELODIC))
+        before = self.topics.settled()
+        self.topics.object(sphere("whole", 1))
         whole = io.BytesIO()
-        sphere("cut", 2, types=MELODIC, frame="").serialize(whole)
+        sphere("cut", 2, frame="").serialize(whole)
         sizes = range(0, len(whole.getvalue()), 7)
         for size in sizes:
             message = Cut(id="cut", operation=ADD)
             message.primitives, message.primitive_poses = sphere("cut", 2).primitives, sphere("cut", 2).primitive_poses
             message.size = size
-            self.melodic.object(message)
-        after = self.melodic.settled()
+            self.topics.object(message)
+        after = self.topics.settled()
         self.assertEqual(after["refused"] - before["refused"], len(sizes))
-        self.assertEqual((self.melodic.names_at(1), self.melodic.names_at(2)), (["obstacle/whole"], []))
+        self.assertEqual((self.topics.names_at(1), self.topics.names_at(2)), (["obstacle/whole"], []))
 
     # Claim: of a flood, every message that the node received was applied, refused or dropped, and the node answers.
     def test_a_flood_is_accounted_for(self):

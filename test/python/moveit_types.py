@@ -159,22 +159,18 @@ SERVICES = {
     "moveit_msgs/GetPlanningScene": "PlanningSceneComponents components\n---\nPlanningScene scene",
     "moveit_msgs/ApplyPlanningScene": "PlanningScene scene\n---\nbool success",
 }
-ONLY_IN_NOETIC = ("geometry_msgs/Pose pose", "string[] subframe_names", "geometry_msgs/Pose[] subframe_poses")
-
 
 class Types:
-    """The classes of one release. Those of moveit_msgs have their name without package: types["CollisionObject"],
+    """The classes of Noetic. Those of moveit_msgs have their name without package: types["CollisionObject"],
     types["control_msgs/JointTolerance"], types.service("GetPlanningScene")."""
 
-    def __init__(self, noetic=True):
+    def __init__(self):
         self._context = genmsg.MsgContext.create_default()
         self._search = {}
         for package in ("std_msgs", "geometry_msgs", "shape_msgs", "sensor_msgs", "trajectory_msgs", "actionlib_msgs"):
             self._search[package] = [rospkg.RosPack().get_path(package) + "/msg"]
         for name, fields in FIELDS.items():
             lines = [line.strip() for line in fields.split("\n")]
-            if not noetic and name.endswith("/CollisionObject"):
-                lines = [line for line in lines if line not in ONLY_IN_NOETIC]
             self._specs(name, "\n".join(lines))
         self._classes = {}
 

@@ -14,11 +14,9 @@ namespace hgrid {
 namespace {
 
 using moveit::JointTrajectory;
-using moveit::Release;
 
 constexpr const char* kJointTrajectory = "65b4f94a94d1ed67169da35a02f33d3f";
 constexpr const char* kDisplayNoetic = "41936b74e168ba754279ae683ce3f121";
-constexpr const char* kDisplayMelodic = "c3c039261ab9e8a11457dac56b6316c8";
 
 /// Makes one path from trajectories that follow one another, and that may have different joints.
 class Chain {
@@ -101,8 +99,7 @@ PathCommand commandOf(const JointTrajectory& trajectory, Time arrival) {
   return command;
 }
 
-template <Release release>
-PathCommand commandOf(const moveit::DisplayTrajectory<release>& display, Time arrival) {
+PathCommand commandOf(const moveit::DisplayTrajectory& display, Time arrival) {
   std::vector<const JointTrajectory*> parts;
   for (const moveit::RobotTrajectory& part : display.trajectory) {
     if (!part.multi_dof_joint_trajectory.points.empty()) {
@@ -129,13 +126,11 @@ PathCommand readPathMessage(const std::string& bytes, const std::string& md5, Ti
   if (md5 == kJointTrajectory) return commandOf(readMessage<JointTrajectory>(bytes), arrival);
   if (md5 == kActionGoal)
     return commandOf(readMessage<moveit::FollowJointTrajectoryActionGoal>(bytes).trajectory, arrival);
-  if (md5 == kDisplayNoetic) return commandOf(readMessage<moveit::DisplayTrajectory<Release::noetic>>(bytes), arrival);
-  if (md5 == kDisplayMelodic)
-    return commandOf(readMessage<moveit::DisplayTrajectory<Release::melodic>>(bytes), arrival);
+  if (md5 == kDisplayNoetic) return commandOf(readMessage<moveit::DisplayTrajectory>(bytes), arrival);
   throw Refusal(Code::unsupported,
                 "its type has the MD5 " + printable(md5) +
                     "; it must be trajectory_msgs/JointTrajectory, control_msgs/FollowJointTrajectoryActionGoal or "
-                    "moveit_msgs/DisplayTrajectory of Noetic or Melodic");
+                    "moveit_msgs/DisplayTrajectory of Noetic");
 }
 
 }  // namespace hgrid

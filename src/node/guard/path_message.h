@@ -27,7 +27,7 @@ struct PathCommand {
 };
 
 /// Reads a message that commands or plans a path: trajectory_msgs/JointTrajectory,
-/// control_msgs/FollowJointTrajectoryActionGoal or moveit_msgs/DisplayTrajectory (of Noetic or Melodic), whose parts
+/// control_msgs/FollowJointTrajectoryActionGoal or moveit_msgs/DisplayTrajectory (of Noetic), whose parts
 /// follow one another.
 /// @param bytes    the serialized message
 /// @param md5      of the type of the message

@@ -42,11 +42,10 @@ struct RobotTrajectory {
   MultiDofTrajectory multi_dof_joint_trajectory;
 };
 
-template <Release release>
 struct DisplayTrajectory {
   std::string model_id;
   std::vector<RobotTrajectory> trajectory;
-  RobotState<release> trajectory_start;
+  RobotState trajectory_start;
 };
 
 /// The fields of control_msgs/JointTolerance.
@@ -131,8 +130,8 @@ struct Serializer<hgrid::moveit::RobotTrajectory> {
   ROS_DECLARE_ALLINONE_SERIALIZER
 };
 
-template <hgrid::moveit::Release release>
-struct Serializer<hgrid::moveit::DisplayTrajectory<release>> {
+template <>
+struct Serializer<hgrid::moveit::DisplayTrajectory> {
   template <typename Stream, typename Display>
   static void allInOne(Stream& stream, Display display) {
     stream.next(display.model_id);

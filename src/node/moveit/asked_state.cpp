@@ -16,7 +16,7 @@
 namespace hgrid {
 namespace {
 
-using State = moveit::RobotState<moveit::Release::noetic>;
+using State = moveit::RobotState;
 
 void checkLengths(const char* list, std::size_t names, const char* values, std::size_t count) {
   if (names == count) return;

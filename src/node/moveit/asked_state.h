@@ -28,7 +28,7 @@ struct AskedState {
 /// @throws Refusal out_of_range if lists have different lengths, dup_id for a joint that occurs twice
 /// @throws Refusal conflict for a pose that its joint cannot have
 /// @throws Refusal unsupported if the message attaches objects, or for a virtual joint of another link than the root
-AskedState askedState(const moveit::RobotState<moveit::Release::noetic>& state, const std::string& group,
-                      const Tick& tick, const TransformLookup& transforms);
+AskedState askedState(const moveit::RobotState& state, const std::string& group, const Tick& tick,
+                      const TransformLookup& transforms);
 
 }  // namespace hgrid

@@ -22,14 +22,13 @@ namespace hgrid {
 namespace {
 
 namespace msg = ::hgrid_proximity;
-using moveit::CollisionObjectFields;
-using moveit::Release;
+using moveit::CollisionObject;
 
 constexpr std::size_t kMostTouchLinks = 1000;  // of one attached object
 constexpr std::size_t kMostRemovals = 100;     // of all objects, in one planning scene
 constexpr double kLargestPadding = 1e3;        // [m]
 
-std::string whatOf(const CollisionObjectFields& object) { return "object '" + printable(object.id) + "'"; }
+std::string whatOf(const CollisionObject& object) { return "object '" + printable(object.id) + "'"; }
 
 /// Refuses to read a mesh file, because the messages of MoveIt name none.
 std::shared_ptr<const TriangleMesh> noFile(const std::string& uri, const Eigen::Vector3d&) {
@@ -46,7 +45,7 @@ bool isUnset(const geometry_msgs::Pose& pose) {
 /// @throws Refusal bad_geometry if there are more poses than shapes
 template <class Part, class ShapeOf>
 void appendShapes(const std::vector<Part>& parts, const std::vector<geometry_msgs::Pose>& poses, const char* kind,
-                  const CollisionObjectFields& object, const ShapeOf& shape_of, std::vector<msg::Shape>& shapes) {
+                  const CollisionObject& object, const ShapeOf& shape_of, std::vector<msg::Shape>& shapes) {
   if (poses.size() > parts.size()) {
     throw Refusal(Code::bad_geometry, whatOf(object) + " has " + std::to_string(parts.size()) + " " + kind + " but " +
                                           std::to_string(poses.size()) + " poses of them");
@@ -58,7 +57,7 @@ void appendShapes(const std::vector<Part>& parts, const std::vector<geometry_msg
   }
 }
 
-msg::Shape fromPrimitive(const shape_msgs::SolidPrimitive& primitive, const CollisionObjectFields& object) {
+msg::Shape fromPrimitive(const shape_msgs::SolidPrimitive& primitive, const CollisionObject& object) {
   msg::Shape shape;
   switch (primitive.type) {
     case shape_msgs::SolidPrimitive::BOX:
@@ -95,7 +94,7 @@ msg::Shape planeShape() {
   return shape;
 }
 
-std::vector<msg::Shape> shapesOf(const CollisionObjectFields& object) {
+std::vector<msg::Shape> shapesOf(const CollisionObject& object) {
   std::vector<msg::Shape> shapes;
   appendShapes(
       object.primitives, object.primitive_poses, "primitives", object,
@@ -115,7 +114,7 @@ std::vector<msg::Shape> shapesOf(const CollisionObjectFields& object) {
 
 /// Returns the poses of all shapes that the message gives.
 /// @throws Refusal bad_geometry if it gives poses of planes without the planes, whose coefficients are needed
-std::vector<geometry_msgs::Pose> posesOf(const CollisionObjectFields& object) {
+std::vector<geometry_msgs::Pose> posesOf(const CollisionObject& object) {
   std::vector<geometry_msgs::Pose> poses = object.primitive_poses;
   poses.insert(poses.end(), object.mesh_poses.begin(), object.mesh_poses.end());
   if (object.plane_poses.size() != object.planes.size()) {
@@ -130,7 +129,7 @@ std::vector<geometry_msgs::Pose> posesOf(const CollisionObjectFields& object) {
 }
 
 /// Returns the place of the object: where the frame of the message is at present.
-ObstaclePlace placeOf(const CollisionObjectFields& object, const geometry_msgs::Pose& pose) {
+ObstaclePlace placeOf(const CollisionObject& object, const geometry_msgs::Pose& pose) {
   ObstaclePlace place;
   place.frame = withoutSlash(object.header.frame_id);
   place.frame_from_body = fromPose(pose, "the pose of " + whatOf(object));
@@ -140,7 +139,7 @@ ObstaclePlace placeOf(const CollisionObjectFields& object, const geometry_msgs::
 }
 
 /// Returns a change of the obstacle that stands for the object. @throws Refusal bad_id
-ObstacleChange changeOf(const CollisionObjectFields& object, ObstacleChange::Kind kind) {
+ObstacleChange changeOf(const CollisionObject& object, ObstacleChange::Kind kind) {
   checkLocal(object.id, "the id of an object");
   ObstacleChange change;
   change.kind = kind;
@@ -148,7 +147,7 @@ ObstacleChange changeOf(const CollisionObjectFields& object, ObstacleChange::Kin
   return change;
 }
 
-ObstacleChange moved(const CollisionObjectFields& object) {
+ObstacleChange moved(const CollisionObject& object) {
   ObstacleChange change = changeOf(object, ObstacleChange::Kind::move);
   const std::vector<geometry_msgs::Pose> poses = posesOf(object);
   if (poses.size() == 1 && isUnset(object.pose)) {  // as in shapesOf() of an object with one shape
@@ -164,16 +163,15 @@ ObstacleChange moved(const CollisionObjectFields& object) {
   return change;
 }
 
-[[noreturn]] void refuseOperation(const CollisionObjectFields& object, const char* allowed) {
+[[noreturn]] void refuseOperation(const CollisionObject& object, const char* allowed) {
   throw Refusal(Code::unsupported,
                 whatOf(object) + ": operation is " + std::to_string(object.operation) + "; it must be " + allowed);
 }
 
 /// Each removal of all objects visits all obstacles. @throws Refusal limit if there are too many of them
-template <Release release>
-void checkRemovals(const moveit::PlanningScene<release>& scene) {
-  const auto removes_all = [](const CollisionObjectFields& object) {
-    return object.operation == CollisionObjectFields::REMOVE && object.id.empty();
+void checkRemovals(const moveit::PlanningScene& scene) {
+  const auto removes_all = [](const CollisionObject& object) {
+    return object.operation == CollisionObject::REMOVE && object.id.empty();
   };
   std::size_t count = 0;
   for (const auto& object : scene.collision_objects) count += removes_all(object) ? 1 : 0;
@@ -197,7 +195,7 @@ void numbered(ObstacleChanges& changes, const Act& act) {
 }  // namespace
 
 /// Returns a change that adds the object. @param placed_now  false: the object follows its frame
-ObstacleChange SceneReader::added(const CollisionObjectFields& object, bool placed_now) const {
+ObstacleChange SceneReader::added(const CollisionObject& object, bool placed_now) const {
   msg::Obstacle change;
   change.operation = msg::ObstacleOperation::ADD;
   change.name = object.id;
@@ -213,21 +211,21 @@ ObstacleChange SceneReader::added(const CollisionObjectFields& object, bool plac
   return obstacleChangeOf(change, kSceneOwner, params_, narrow_phase_, noFile);
 }
 
-void SceneReader::appendObject(const CollisionObjectFields& object, ObstacleChanges& changes) const {
+void SceneReader::appendObject(const CollisionObject& object, ObstacleChanges& changes) const {
   switch (object.operation) {
-    case CollisionObjectFields::ADD:
+    case CollisionObject::ADD:
       changes.changes.push_back(added(object, true));
       changes.changes.back().free_only = true;
       break;
-    case CollisionObjectFields::APPEND:
+    case CollisionObject::APPEND:
       changes.changes.push_back(added(object, true));
       changes.changes.back().free_only = true;
       changes.changes.back().kind = ObstacleChange::Kind::append;
       break;
-    case CollisionObjectFields::MOVE:
+    case CollisionObject::MOVE:
       changes.changes.push_back(moved(object));
       break;
-    case CollisionObjectFields::REMOVE:
+    case CollisionObject::REMOVE:
       if (object.id.empty()) {
         ObstacleChange all;
         all.kind = ObstacleChange::Kind::remove_all_free;
@@ -243,11 +241,9 @@ void SceneReader::appendObject(const CollisionObjectFields& object, ObstacleChan
   }
 }
 
-template <moveit::Release release>
-void SceneReader::appendAttached(const moveit::AttachedCollisionObject<release>& attached,
-                                 ObstacleChanges& changes) const {
-  const CollisionObjectFields& object = attached.object;
-  if (object.operation == CollisionObjectFields::REMOVE) {
+void SceneReader::appendAttached(const moveit::AttachedCollisionObject& attached, ObstacleChanges& changes) const {
+  const CollisionObject& object = attached.object;
+  if (object.operation == CollisionObject::REMOVE) {
     ObstacleChange change;
     if (!object.id.empty()) {
       change = changeOf(object, ObstacleChange::Kind::detach);
@@ -259,7 +255,7 @@ void SceneReader::appendAttached(const moveit::AttachedCollisionObject<release>&
     changes.changes.push_back(std::move(change));
     return;
   }
-  if (object.operation != CollisionObjectFields::ADD) refuseOperation(object, "0 (ADD) or 1 (REMOVE)");
+  if (object.operation != CollisionObject::ADD) refuseOperation(object, "0 (ADD) or 1 (REMOVE)");
   if (attached.touch_links.size() > kMostTouchLinks) {
     throw Refusal(Code::limit, whatOf(object) + ": touch_links has " + std::to_string(attached.touch_links.size()) +
                                    " names; at most " + std::to_string(kMostTouchLinks) + " are allowed");
@@ -284,21 +280,19 @@ void SceneReader::appendAttached(const moveit::AttachedCollisionObject<release>&
   changes.changes.push_back(std::move(attach));
 }
 
-ObstacleChanges SceneReader::changesOf(const CollisionObjectFields& object) const {
+ObstacleChanges SceneReader::changesOf(const CollisionObject& object) const {
   ObstacleChanges changes;
   numbered(changes, [&] { appendObject(object, changes); });
   return changes;
 }
 
-template <moveit::Release release>
-ObstacleChanges SceneReader::changesOf(const moveit::AttachedCollisionObject<release>& attached) const {
+ObstacleChanges SceneReader::changesOf(const moveit::AttachedCollisionObject& attached) const {
   ObstacleChanges changes;
   numbered(changes, [&] { appendAttached(attached, changes); });
   return changes;
 }
 
-template <moveit::Release release>
-ObstacleChanges SceneReader::changesOf(const moveit::PlanningScene<release>& scene) const {
+ObstacleChanges SceneReader::changesOf(const moveit::PlanningScene& scene) const {
   const std::size_t count = scene.collision_objects.size() + scene.robot_state.attached_collision_objects.size();
   const auto most = static_cast<std::size_t>(params_.max_bodies);
   if (count > most) {
@@ -316,23 +310,22 @@ ObstacleChanges SceneReader::changesOf(const moveit::PlanningScene<release>& sce
   std::set<std::string> attached, begun;
   for (const auto& one : scene.robot_state.attached_collision_objects) {  // MoveIt applies these first
     numbered(changes, [&] { appendAttached(one, changes); });
-    if (one.object.operation == CollisionObjectFields::ADD) attached.insert(one.object.id);
+    if (one.object.operation == CollisionObject::ADD) attached.insert(one.object.id);
   }
-  for (const moveit::CollisionObject<release>& object : scene.collision_objects) {
-    const bool left = object.operation == CollisionObjectFields::REMOVE && attached.count(object.id) != 0;
+  for (const moveit::CollisionObject& object : scene.collision_objects) {
+    const bool left = object.operation == CollisionObject::REMOVE && attached.count(object.id) != 0;
     if (left) continue;  // it left MoveIt's world when it was attached
     numbered(changes, [&] { appendObject(object, changes); });
     const bool begins = begun.insert(object.id).second;
     // In a complete scene, no object is there before its first shapes are added.
-    if (!scene.is_diff && begins && object.operation == CollisionObjectFields::APPEND) {
+    if (!scene.is_diff && begins && object.operation == CollisionObject::APPEND) {
       changes.changes.back().kind = ObstacleChange::Kind::add;
     }
   }
   return changes;
 }
 
-template <moveit::Release release>
-SceneExtras SceneReader::extrasOf(const moveit::PlanningScene<release>& scene) const {
+SceneExtras SceneReader::extrasOf(const moveit::PlanningScene& scene) const {
   SceneExtras extras;
   extras.complete = !scene.is_diff;
   for (const moveit::LinkNumber& padding : scene.link_padding) {
@@ -368,14 +361,5 @@ LinkPaddings paddingsAfter(const SceneExtras& extras, const LinkPaddings& before
   throw Refusal(Code::limit, "there would be paddings of " + std::to_string(after.size()) + " links; at most " +
                                  std::to_string(most) + " are allowed (~limits/max_links)");
 }
-
-template ObstacleChanges SceneReader::changesOf(
-    const moveit::AttachedCollisionObject<moveit::Release::noetic>& attached) const;
-template ObstacleChanges SceneReader::changesOf(
-    const moveit::AttachedCollisionObject<moveit::Release::melodic>& attached) const;
-template ObstacleChanges SceneReader::changesOf(const moveit::PlanningScene<moveit::Release::noetic>& scene) const;
-template ObstacleChanges SceneReader::changesOf(const moveit::PlanningScene<moveit::Release::melodic>& scene) const;
-template SceneExtras SceneReader::extrasOf(const moveit::PlanningScene<moveit::Release::noetic>& scene) const;
-template SceneExtras SceneReader::extrasOf(const moveit::PlanningScene<moveit::Release::melodic>& scene) const;
 
 }  // namespace hgrid

@@ -19,8 +19,7 @@ namespace hgrid {
 inline constexpr const char* kSceneOwner = "moveit";
 
 /// Returns the names of the parts of a planning scene that have an effect in MoveIt, but not in this node.
-template <moveit::Release release>
-std::vector<const char*> unusedPartsOf(const moveit::PlanningScene<release>& scene, const Params& params) {
+std::vector<const char*> unusedPartsOf(const moveit::PlanningScene& scene, const Params& params) {
   std::vector<const char*> parts;
   const auto is_scaled = [](const moveit::LinkNumber& scale) { return scale.value != 1.0; };
   if (std::any_of(scene.link_scale.begin(), scene.link_scale.end(), is_scaled)) parts.push_back("link_scale");
@@ -51,22 +50,18 @@ class SceneReader {
   /// Both parameters must outlive this object.
   SceneReader(const Params& params, NarrowPhase& narrow_phase) : params_(params), narrow_phase_(narrow_phase) {}
 
-  ObstacleChanges changesOf(const moveit::CollisionObjectFields& object) const;
-  template <moveit::Release release>
-  ObstacleChanges changesOf(const moveit::AttachedCollisionObject<release>& attached) const;
-  template <moveit::Release release>
-  ObstacleChanges changesOf(const moveit::PlanningScene<release>& scene) const;
+  ObstacleChanges changesOf(const moveit::CollisionObject& object) const;
+  ObstacleChanges changesOf(const moveit::AttachedCollisionObject& attached) const;
+  ObstacleChanges changesOf(const moveit::PlanningScene& scene) const;
   /// Returns what a planning scene says about robots and allowed pairs.
   /// @throws Refusal for a name, a padding or a matrix that is not valid, see also matrixRulesOf()
-  template <moveit::Release release>
-  SceneExtras extrasOf(const moveit::PlanningScene<release>& scene) const;
+  SceneExtras extrasOf(const moveit::PlanningScene& scene) const;
   const Params& params() const { return params_; }
 
  private:
-  ObstacleChange added(const moveit::CollisionObjectFields& object, bool placed_now) const;
-  void appendObject(const moveit::CollisionObjectFields& object, ObstacleChanges& changes) const;
-  template <moveit::Release release>
-  void appendAttached(const moveit::AttachedCollisionObject<release>& attached, ObstacleChanges& changes) const;
+  ObstacleChange added(const moveit::CollisionObject& object, bool placed_now) const;
+  void appendObject(const moveit::CollisionObject& object, ObstacleChanges& changes) const;
+  void appendAttached(const moveit::AttachedCollisionObject& attached, ObstacleChanges& changes) const;
 
   const Params& params_;
   NarrowPhase& narrow_phase_;

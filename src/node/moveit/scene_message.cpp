@@ -14,8 +14,7 @@
 namespace hgrid {
 namespace {
 
-using moveit::CollisionObjectFields;
-using moveit::Release;
+using moveit::CollisionObject;
 using Lack = SceneGaps::Lack;
 
 template <class Message>
@@ -38,14 +37,13 @@ ReadScene::ReadScene(const ReceivedScene& scene, const SceneReader& reader)
   try {
     switch (scene.topic) {
       case SceneTopic::collision_object:
-        readAs<moveit::CollisionObject<Release::noetic>, moveit::CollisionObject<Release::melodic>>(scene, reader);
+        readAs<moveit::CollisionObject>(scene, reader);
         break;
       case SceneTopic::attached_collision_object:
-        readAs<moveit::AttachedCollisionObject<Release::noetic>, moveit::AttachedCollisionObject<Release::melodic>>(
-            scene, reader);
+        readAs<moveit::AttachedCollisionObject>(scene, reader);
         break;
       case SceneTopic::planning_scene:
-        readAs<moveit::PlanningScene<Release::noetic>, moveit::PlanningScene<Release::melodic>>(scene, reader);
+        readAs<moveit::PlanningScene>(scene, reader);
         break;
     }
   } catch (...) {
@@ -55,7 +53,7 @@ ReadScene::ReadScene(const ReceivedScene& scene, const SceneReader& reader)
   }
 }
 
-ReadScene::ReadScene(const moveit::PlanningScene<Release::noetic>& scene, const SceneReader& reader)
+ReadScene::ReadScene(const moveit::PlanningScene& scene, const SceneReader& reader)
     : what_("the request of apply_planning_scene") {
   try {
     note(scene, reader);
@@ -68,31 +66,30 @@ ReadScene::ReadScene(const moveit::PlanningScene<Release::noetic>& scene, const 
 ReadScene::ReadScene(const Refusal& dropped, bool is_scene)
     : placed_{{"", Lack::shapes}}, hides_octomap_(is_scene), refused_(dropped) {}
 
-/// Reads a message of one of the two releases. @throws Refusal version, truncated, or as SceneReader
-template <class Noetic, class Melodic>
+/// Reads a message. @throws Refusal version, truncated, or as SceneReader
+template <class Message>
 void ReadScene::readAs(const ReceivedScene& scene, const SceneReader& reader) {
-  const auto take = [&](const auto& message) {
-    note(message, reader);
-    changes_ = reader.changesOf(message);
-  };
-  if (scene.md5 == moveit::kMd5<Noetic>) return take(deserialized<Noetic>(scene));
-  if (scene.md5 == moveit::kMd5<Melodic>) return take(deserialized<Melodic>(scene));
-  throw Refusal(Code::version, "its type has the MD5 " + printable(scene.md5) + "; it must be " + moveit::kMd5<Noetic> +
-                                   " (Noetic) or " + moveit::kMd5<Melodic> + " (Melodic)");
+  if (scene.md5 != moveit::kMd5<Message>) {
+    throw Refusal(Code::version, "its type has the MD5 " + printable(scene.md5) + "; it must be that of Noetic, " +
+                                     moveit::kMd5<Message>);
+  }
+  const Message message = deserialized<Message>(scene);
+  note(message, reader);
+  changes_ = reader.changesOf(message);
 }
 
-void ReadScene::noteObject(const CollisionObjectFields& object) {
+void ReadScene::noteObject(const CollisionObject& object) {
   const std::string name = joined("obstacle", object.id);
-  if (object.operation == CollisionObjectFields::REMOVE) {
+  if (object.operation == CollisionObject::REMOVE) {
     removed_.push_back(name);
   } else {
-    placed_.push_back({name, object.operation == CollisionObjectFields::MOVE ? Lack::place : Lack::shapes});
+    placed_.push_back({name, object.operation == CollisionObject::MOVE ? Lack::place : Lack::shapes});
   }
 }
 
-void ReadScene::noteAttached(const CollisionObjectFields& object) {
+void ReadScene::noteAttached(const CollisionObject& object) {
   const std::string name = joined("obstacle", object.id);
-  if (object.operation == CollisionObjectFields::REMOVE) {
+  if (object.operation == CollisionObject::REMOVE) {
     detached_.push_back({object.id.empty() ? "" : name, Lack::place});
   } else {
     const bool has_shapes = !object.primitives.empty() || !object.meshes.empty() || !object.planes.empty();
@@ -100,8 +97,7 @@ void ReadScene::noteAttached(const CollisionObjectFields& object) {
   }
 }
 
-template <Release release>
-void ReadScene::note(const moveit::PlanningScene<release>& scene, const SceneReader& reader) {
+void ReadScene::note(const moveit::PlanningScene& scene, const SceneReader& reader) {
   for (const auto& attached : scene.robot_state.attached_collision_objects) noteAttached(attached.object);
   for (const auto& object : scene.collision_objects) noteObject(object);
   unused_ = unusedPartsOf(scene, reader.params());

@@ -21,7 +21,7 @@ class ReadScene {
   /// Reads a message. If it is not valid, refused() says why.
   ReadScene(const ReceivedScene& scene, const SceneReader& reader);
   /// Reads the request of a service.
-  ReadScene(const moveit::PlanningScene<moveit::Release::noetic>& scene, const SceneReader& reader);
+  ReadScene(const moveit::PlanningScene& scene, const SceneReader& reader);
   /// Takes the place of messages that were dropped, so that noteIn() notes a gap in the order of the messages.
   /// @param dropped   why they were dropped; its code is limit
   /// @param is_scene  whether one of them may have been a planning scene
@@ -54,17 +54,13 @@ class ReadScene {
   const ObstacleChanges& changes() const { return changes_; }
 
  private:
-  template <class Noetic, class Melodic>
+  template <class Message>
   void readAs(const ReceivedScene& scene, const SceneReader& reader);
-  void noteObject(const moveit::CollisionObjectFields& object);
-  void noteAttached(const moveit::CollisionObjectFields& object);
-  void note(const moveit::CollisionObjectFields& object, const SceneReader&) { noteObject(object); }
-  template <moveit::Release release>
-  void note(const moveit::AttachedCollisionObject<release>& attached, const SceneReader&) {
-    noteAttached(attached.object);
-  }
-  template <moveit::Release release>
-  void note(const moveit::PlanningScene<release>& scene, const SceneReader& reader);
+  void noteObject(const moveit::CollisionObject& object);
+  void noteAttached(const moveit::CollisionObject& object);
+  void note(const moveit::CollisionObject& object, const SceneReader&) { noteObject(object); }
+  void note(const moveit::AttachedCollisionObject& attached, const SceneReader&) { noteAttached(attached.object); }
+  void note(const moveit::PlanningScene& scene, const SceneReader& reader);
 
   std::string what_;
   std::vector<SceneGaps::Object> placed_;    // objects that the message adds, moves or attaches

@@ -22,8 +22,7 @@ class SceneOctomap {
       : source_(source), jobs_(jobs), ledger_(ledger) {}
 
   /// Whether a planning scene says something about the octomap. If so and the octomap has no data, it removes the map.
-  template <moveit::Release release>
-  static bool isIn(const moveit::PlanningScene<release>& scene) {
+  static bool isIn(const moveit::PlanningScene& scene) {
     return !scene.is_diff || !scene.octomap.id.empty() || !scene.octomap.data.empty();
   }
 

@@ -15,7 +15,7 @@ namespace hgrid {
 namespace {
 
 using moveit::GetPlanningScene;
-using NoeticObject = moveit::CollisionObject<moveit::Release::noetic>;
+using NoeticObject = moveit::CollisionObject;
 
 void appendPrimitive(std::uint8_t type, const std::vector<double>& dimensions, const Pose& pose, NoeticObject& object) {
   shape_msgs::SolidPrimitive primitive;
@@ -91,17 +91,16 @@ NoeticObject objectOf(const std::string& name, const std::string& frame, const P
   return object;
 }
 
-moveit::AttachedCollisionObject<moveit::Release::noetic> attachedOf(const std::string& name,
-                                                                    const PlacedObstacle& obstacle) {
+moveit::AttachedCollisionObject attachedOf(const std::string& name, const PlacedObstacle& obstacle) {
   const Attachment& attachment = *obstacle.attachment;
-  moveit::AttachedCollisionObject<moveit::Release::noetic> attached;
+  moveit::AttachedCollisionObject attached;
   attached.link_name = localOf(attachment.link);
   attached.object = objectOf(name, attached.link_name, *attachment.link_from_body, obstacle.what->body.shapes, true);
   attached.touch_links = attachment.touch_links;
   return attached;
 }
 
-void appendPaddings(const BodyList& bodies, moveit::PlanningScene<moveit::Release::noetic>& scene) {
+void appendPaddings(const BodyList& bodies, moveit::PlanningScene& scene) {
   std::map<std::string, int> robots;  // by the name of a link: how many robots have it
   for (const Body& body : bodies) {
     if (body.kind == BodyKind::link) ++robots[localOf(body.name)];
@@ -119,10 +118,10 @@ void appendPaddings(const BodyList& bodies, moveit::PlanningScene<moveit::Releas
 
 }  // namespace
 
-moveit::PlanningScene<moveit::Release::noetic> planningScene(std::uint32_t components, const Tick& tick,
-                                                             const std::map<std::string, PlacedObstacle>& obstacles,
-                                                             const std::vector<MatrixRule>& matrix) {
-  moveit::PlanningScene<moveit::Release::noetic> scene;
+moveit::PlanningScene planningScene(std::uint32_t components, const Tick& tick,
+                                    const std::map<std::string, PlacedObstacle>& obstacles,
+                                    const std::vector<MatrixRule>& matrix) {
+  moveit::PlanningScene scene;
   scene.name = "hgrid_proximity";
   scene.robot_state.is_diff = true;  // it contains no joint positions
   if ((components & GetPlanningScene::allowed_collision_matrix) != 0) {

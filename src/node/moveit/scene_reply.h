@@ -25,8 +25,8 @@ namespace hgrid {
 /// @param components  bits of GetPlanningScene::Component: what the scene contains
 /// @param obstacles   the obstacles, by full name, that `tick` contains
 /// @param matrix      the newest allowed collision matrix of MoveIt
-moveit::PlanningScene<moveit::Release::noetic> planningScene(std::uint32_t components, const Tick& tick,
-                                                             const std::map<std::string, PlacedObstacle>& obstacles,
-                                                             const std::vector<MatrixRule>& matrix);
+moveit::PlanningScene planningScene(std::uint32_t components, const Tick& tick,
+                                    const std::map<std::string, PlacedObstacle>& obstacles,
+                                    const std::vector<MatrixRule>& matrix);
 
 }  // namespace hgrid

@@ -90,7 +90,7 @@ struct ConstraintEvalResult {
 
 struct GetStateValidity {
   struct Request {
-    RobotState<Release::noetic> robot_state;
+    RobotState robot_state;
     std::string group_name;
     Constraints constraints;
   };

@@ -21,15 +21,11 @@
 
 namespace hgrid {
 
-/// The messages of moveit_msgs that describe a planning scene. Their names and fields are those of moveit_msgs, but
-/// that package is not needed: a message type of ROS is identified by a hash of its fields (MD5).
+/// The messages of moveit_msgs that describe a planning scene. Their names and fields are those of moveit_msgs of
+/// Noetic, but that package is not needed: a message type of ROS is identified by a hash of its fields (MD5).
 namespace moveit {
 
-/// The releases of ROS whose moveit_msgs differ. Only CollisionObject has other fields in Melodic.
-enum class Release { noetic, melodic };
-
-/// The fields of a CollisionObject. In messages of Melodic, there is no pose and no subframe, so `pose` contains zeros.
-struct CollisionObjectFields {
+struct CollisionObject {
   enum Operation : std::int8_t { ADD = 0, REMOVE = 1, APPEND = 2, MOVE = 3 };
 
   std_msgs::Header header;
@@ -47,9 +43,6 @@ struct CollisionObjectFields {
   std::int8_t operation = ADD;
 };
 
-template <Release release>
-struct CollisionObject : CollisionObjectFields {};
-
 /// The fields of trajectory_msgs/JointTrajectoryPoint. The node does not use them.
 struct JointTrajectoryPoint {
   std::vector<double> positions, velocities, accelerations, effort;
@@ -63,10 +56,9 @@ struct JointTrajectory {
   std::vector<JointTrajectoryPoint> points;
 };
 
-template <Release release>
 struct AttachedCollisionObject {
   std::string link_name;
-  CollisionObject<release> object;
+  CollisionObject object;
   std::vector<std::string> touch_links;
   JointTrajectory detach_posture;
   double weight = 0.0;
@@ -88,11 +80,10 @@ struct MultiDofJointState {
   std::vector<geometry_msgs::Wrench> wrench;
 };
 
-template <Release release>
 struct RobotState {
   JointState joint_state;
   MultiDofJointState multi_dof_joint_state;
-  std::vector<AttachedCollisionObject<release>> attached_collision_objects;
+  std::vector<AttachedCollisionObject> attached_collision_objects;
   std::uint8_t is_diff = 0;
 };
 
@@ -129,17 +120,16 @@ struct OctomapWithPose {
   std::vector<std::int8_t> data;
 };
 
-template <Release release>
 struct PlanningScene {
   std::string name;
-  RobotState<release> robot_state;
+  RobotState robot_state;
   std::string robot_model_name;
   std::vector<geometry_msgs::TransformStamped> fixed_frame_transforms;
   AllowedCollisionMatrix allowed_collision_matrix;
   std::vector<LinkNumber> link_padding, link_scale;
   std::vector<ObjectColor> object_colors;
-  std::vector<CollisionObject<release>> collision_objects;  ///< in moveit_msgs, a field of PlanningSceneWorld
-  OctomapWithPose octomap;                                  ///< in moveit_msgs, a field of PlanningSceneWorld
+  std::vector<CollisionObject> collision_objects;  ///< in moveit_msgs, a field of PlanningSceneWorld
+  OctomapWithPose octomap;                         ///< in moveit_msgs, a field of PlanningSceneWorld
   std::uint8_t is_diff = 0;
 };
 
@@ -158,35 +148,29 @@ struct GetPlanningScene {
     std::uint32_t components = 0;
   };
   struct Response {
-    PlanningScene<Release::noetic> scene;
+    PlanningScene scene;
   };
 };
 
 /// The service moveit_msgs/ApplyPlanningScene of Noetic.
 struct ApplyPlanningScene {
   struct Request {
-    PlanningScene<Release::noetic> scene;
+    PlanningScene scene;
   };
   struct Response {
     std::uint8_t success = 0;
   };
 };
 
-/// The MD5 of a message type, as its publishers send it. Undefined for other types and releases.
+/// The MD5 of a message type, as its publishers send it. Undefined for other types.
 template <class Message>
 inline constexpr const char* kMd5 = nullptr;
 template <>
-inline constexpr const char* kMd5<CollisionObject<Release::noetic>> = "dbba710596087da521c07564160dfccb";
+inline constexpr const char* kMd5<CollisionObject> = "dbba710596087da521c07564160dfccb";
 template <>
-inline constexpr const char* kMd5<CollisionObject<Release::melodic>> = "568a161b26dc46c54a5a07621ce82cf3";
+inline constexpr const char* kMd5<AttachedCollisionObject> = "30199ef516f64c8bc1edb1084ce4584e";
 template <>
-inline constexpr const char* kMd5<AttachedCollisionObject<Release::noetic>> = "30199ef516f64c8bc1edb1084ce4584e";
-template <>
-inline constexpr const char* kMd5<AttachedCollisionObject<Release::melodic>> = "3ceac60b21e85bbd6c5b0ab9d476b752";
-template <>
-inline constexpr const char* kMd5<PlanningScene<Release::noetic>> = "acfc50bcfd6c7b978066bfa7c786002c";
-template <>
-inline constexpr const char* kMd5<PlanningScene<Release::melodic>> = "89aac6d20db967ba716cba5a86b1b9d5";
+inline constexpr const char* kMd5<PlanningScene> = "acfc50bcfd6c7b978066bfa7c786002c";
 
 }  // namespace moveit
 }  // namespace hgrid
@@ -196,12 +180,12 @@ namespace serialization {
 
 // Reads and writes the fields of each type in the order in which moveit_msgs sends them.
 
-template <hgrid::moveit::Release release>
-struct Serializer<hgrid::moveit::CollisionObject<release>> {
+template <>
+struct Serializer<hgrid::moveit::CollisionObject> {
   template <typename Stream, typename Object>
   static void allInOne(Stream& stream, Object object) {
     stream.next(object.header);
-    if constexpr (release == hgrid::moveit::Release::noetic) stream.next(object.pose);
+    stream.next(object.pose);
     stream.next(object.id);
     stream.next(object.type_key);
     stream.next(object.type_db);
@@ -211,10 +195,8 @@ struct Serializer<hgrid::moveit::CollisionObject<release>> {
     stream.next(object.mesh_poses);
     stream.next(object.planes);
     stream.next(object.plane_poses);
-    if constexpr (release == hgrid::moveit::Release::noetic) {
-      stream.next(object.subframe_names);
-      stream.next(object.subframe_poses);
-    }
+    stream.next(object.subframe_names);
+    stream.next(object.subframe_poses);
     stream.next(object.operation);
   }
   ROS_DECLARE_ALLINONE_SERIALIZER
@@ -244,8 +226,8 @@ struct Serializer<hgrid::moveit::JointTrajectory> {
   ROS_DECLARE_ALLINONE_SERIALIZER
 };
 
-template <hgrid::moveit::Release release>
-struct Serializer<hgrid::moveit::AttachedCollisionObject<release>> {
+template <>
+struct Serializer<hgrid::moveit::AttachedCollisionObject> {
   template <typename Stream, typename Attached>
   static void allInOne(Stream& stream, Attached attached) {
     stream.next(attached.link_name);
@@ -283,8 +265,8 @@ struct Serializer<hgrid::moveit::MultiDofJointState> {
   ROS_DECLARE_ALLINONE_SERIALIZER
 };
 
-template <hgrid::moveit::Release release>
-struct Serializer<hgrid::moveit::RobotState<release>> {
+template <>
+struct Serializer<hgrid::moveit::RobotState> {
   template <typename Stream, typename State>
   static void allInOne(Stream& stream, State state) {
     stream.next(state.joint_state);
@@ -351,8 +333,8 @@ struct Serializer<hgrid::moveit::OctomapWithPose> {
   ROS_DECLARE_ALLINONE_SERIALIZER
 };
 
-template <hgrid::moveit::Release release>
-struct Serializer<hgrid::moveit::PlanningScene<release>> {
+template <>
+struct Serializer<hgrid::moveit::PlanningScene> {
   template <typename Stream, typename Scene>
   static void allInOne(Stream& stream, Scene scene) {
     stream.next(scene.name);

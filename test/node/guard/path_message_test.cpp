@@ -17,7 +17,6 @@ namespace hgrid {
 namespace {
 
 using moveit::JointTrajectory;
-using moveit::Release;
 using test::refusalOf;
 
 constexpr const char* kTrajectory = "65b4f94a94d1ed67169da35a02f33d3f";
@@ -49,8 +48,8 @@ JointTrajectory trajectory(const std::vector<std::string>& joints, const std::ve
   return trajectory;
 }
 
-moveit::DisplayTrajectory<Release::noetic> display(const std::vector<JointTrajectory>& parts) {
-  moveit::DisplayTrajectory<Release::noetic> display;
+moveit::DisplayTrajectory display(const std::vector<JointTrajectory>& parts) {
+  moveit::DisplayTrajectory display;
   for (const JointTrajectory& part : parts) display.trajectory.push_back({part, {}});
   return display;
 }
@@ -114,7 +113,7 @@ TEST(PathMessage, RefusesWhatItCannotRead) {
   // Each part is short enough, but all of them together are too long.
   const JointTrajectory day = trajectory({"a"}, {{0.0, {0}}, {80000.0, {1}}});
   EXPECT_EQ(refused(bytesOf(display({day, day})), kDisplay), Code::out_of_range);
-  moveit::DisplayTrajectory<Release::noetic> flying = display({day});
+  moveit::DisplayTrajectory flying = display({day});
   flying.trajectory[0].multi_dof_joint_trajectory.points.resize(1);
   EXPECT_EQ(refused(bytesOf(flying), kDisplay), Code::unsupported);
   // Few bytes that would become a path of 10^10 positions.

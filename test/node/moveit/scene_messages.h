@@ -11,12 +11,10 @@
 namespace hgrid {
 namespace test {
 
-using moveit::CollisionObjectFields;
-using moveit::Release;
-using NoeticObject = moveit::CollisionObject<Release::noetic>;
-using MelodicObject = moveit::CollisionObject<Release::melodic>;
-using NoeticAttached = moveit::AttachedCollisionObject<Release::noetic>;
-using NoeticScene = moveit::PlanningScene<Release::noetic>;
+using moveit::CollisionObject;
+using NoeticObject = moveit::CollisionObject;
+using NoeticAttached = moveit::AttachedCollisionObject;
+using NoeticScene = moveit::PlanningScene;
 
 inline geometry_msgs::Pose poseAt(double x) {
   geometry_msgs::Pose pose;
@@ -53,7 +51,7 @@ inline NoeticObject sceneSphere(std::int8_t operation, const std::string& id, do
 }
 
 inline NoeticObject sceneMove(const std::string& id, double x, const std::string& frame = "") {
-  NoeticObject object = sceneObject(CollisionObjectFields::MOVE, id);
+  NoeticObject object = sceneObject(CollisionObject::MOVE, id);
   object.header.frame_id = frame;
   object.pose = poseAt(x);
   return object;
@@ -61,7 +59,7 @@ inline NoeticObject sceneMove(const std::string& id, double x, const std::string
 
 /// Returns a message that adds the plane a x + b y + c z + d = 0.
 inline NoeticObject scenePlane(const std::string& id, const boost::array<double, 4>& coefficients) {
-  NoeticObject object = sceneObject(CollisionObjectFields::ADD, id);
+  NoeticObject object = sceneObject(CollisionObject::ADD, id);
   object.planes.resize(1);
   object.planes[0].coef = coefficients;
   return object;

@@ -13,7 +13,7 @@ namespace hgrid {
 namespace test {
 namespace {
 
-using Object = CollisionObjectFields;
+using Object = CollisionObject;
 
 // Claim: after any sequence of messages, the world is what a simple model of MoveIt's planning scene says.
 TEST_F(SceneWorld, RandomMessagesGiveWhatASimpleModelSays) {

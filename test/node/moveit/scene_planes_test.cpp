@@ -38,14 +38,14 @@ TEST_F(SceneWorld, PlanesAreSolidWhereTheirEquationIsNegative) {
 TEST_F(SceneWorld, PlanesMoveWithTheirCoefficients) {
   take(scenePlane("floor", {{0.0, 0.0, 1.0, 1.0}}));
   NoeticObject move = scenePlane("floor", {{0.0, 0.0, 1.0, 1.0}});
-  move.operation = CollisionObjectFields::MOVE;
+  move.operation = CollisionObject::MOVE;
   move.plane_poses.resize(1);
   move.plane_poses[0].position.z = 0.5;
   take(move);
   EXPECT_NEAR(planeOf(tick(), "obstacle/floor").first, 0.5, 1e-12);
   move.planes.clear();
   EXPECT_EQ(refusedScene(move), Code::bad_geometry);
-  NoeticObject both = sceneSphere(CollisionObjectFields::ADD, "both", 1);
+  NoeticObject both = sceneSphere(CollisionObject::ADD, "both", 1);
   both.planes = scenePlane("", {{0.0, 0.0, 1.0, 1.0}}).planes;
   EXPECT_EQ(refusedScene(attachedTo("tool", both)), Code::unsupported);
   take(both);

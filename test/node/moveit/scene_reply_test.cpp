@@ -19,8 +19,8 @@ class SceneReply : public SceneWorld {
 };
 
 TEST_F(SceneReply, ContainsWhatIsAskedFor) {
-  take(sceneSphere(CollisionObjectFields::ADD, "part", 1));
-  take(attachedTo("tool", sceneSphere(CollisionObjectFields::ADD, "held", 0.5, "tool")));
+  take(sceneSphere(CollisionObject::ADD, "part", 1));
+  take(attachedTo("tool", sceneSphere(CollisionObject::ADD, "held", 0.5, "tool")));
   apply({adding("lost", 0, 0.1, "never_seen")});
   tick();
   const NoeticScene names = sceneOf(Component::object_names);
@@ -59,7 +59,7 @@ TEST_F(SceneReply, GivesTheSameWorldIfItIsSentBack) {
     hull.shapes[0].mesh.vertices.push_back(vertex);
   }
   apply({capsule, hull, adding("held", 1), attaching("held", "arm/tool", 0.5)});
-  NoeticObject two = sceneSphere(CollisionObjectFields::ADD, "two", 6);
+  NoeticObject two = sceneSphere(CollisionObject::ADD, "two", 6);
   appendSphere(two, 3.0, 0.5);
   take(two);
   const Places before = placesIn(tick());
