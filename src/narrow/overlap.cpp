@@ -45,10 +45,11 @@ class Polytope {
     const double rounding = gapRounding(size_), accepted = std::max(kAccepted, 2.0 * rounding) - 2.0 * rounding;
     double lower = kInfinity;
     for (bool grows = begin(); grows;) {
-      const OverlapFace& lowest = lowestFace();
-      lower = lowest.height;
-      grows = best_.depth - lower > accepted && add(support(lowest.normal));
+      const std::size_t lowest = lowestFace();
+      lower = faces_[lowest].height;
+      grows = best_.depth - lower > accepted && add(support(faces_[lowest].normal), lowest);
     }
+    if (best_.depth - lower > accepted) tryNeighbors();
     best_.depth = std::max(0.0, best_.depth);
     best_.at_least = std::clamp(lower - rounding, 0.0, best_.depth);
     best_.depth += rounding;
@@ -56,6 +57,24 @@ class Polytope {
   }
 
  private:
+  /// Tries directions around the best one, nearer and nearer. Along the rim of a cone or a cylinder, thin faces of the
+  /// polytope have bad directions, so the upper bound may be far above the lower one.
+  void tryNeighbors() {
+    constexpr double kFirstStep = 0.1, kLastStep = 1e-9;  // [rad]
+    double x = 1.0, y = 0.0;                              // of a unit vector that turns by the angle of 3, 4, 5
+    for (double step = kFirstStep; step > kLastStep;) {
+      const double before = best_.depth;
+      const Vector middle = best_.normal, side = middle.unitOrthogonal(), other = middle.cross(side);
+      for (int i = 0; i < 7; ++i) {  // about once around, and never twice the same
+        support((middle + step * (x * side + y * other)).normalized());
+        const double turned = 0.6 * x - 0.8 * y;
+        y = 0.8 * x + 0.6 * y;
+        x = turned;
+      }
+      if (!(best_.depth < before)) step *= 0.5;
+    }
+  }
+
   /// Returns the point of the difference that is farthest in a direction. Uses it for the upper bound.
   /// @param direction  unit vector
   Vector support(const Vector& direction) {
@@ -106,9 +125,11 @@ class Polytope {
     return true;
   }
 
-  const OverlapFace& lowestFace() const {
-    return *std::min_element(faces_.begin(), faces_.begin() + static_cast<std::ptrdiff_t>(face_count_),
-                             [](const OverlapFace& a, const OverlapFace& b) { return a.height < b.height; });
+  std::size_t lowestFace() const {
+    const auto lowest =
+        std::min_element(faces_.begin(), faces_.begin() + static_cast<std::ptrdiff_t>(face_count_),
+                         [](const OverlapFace& a, const OverlapFace& b) { return a.height < b.height; });
+    return static_cast<std::size_t>(lowest - faces_.begin());
   }
 
   void addFace(const std::array<std::uint16_t, 3>& corner) {
@@ -139,30 +160,50 @@ class Polytope {
     return count >= 3 && edges[count - 1].to == edges[0].from;
   }
 
-  /// Replaces the faces that the corner sees by faces that end in the corner. Returns false, and changes nothing, if
-  /// there are none, or if there is no room, or if rounding makes the seen faces more than one piece.
-  bool add(const Vector& corner) {
+  /// Replaces a face, and the faces around it that the corner sees, by faces that end in the corner. Returns false, and
+  /// changes nothing, if the corner is not above the face, or if there is no room, or if rounding makes a hole that is
+  /// not one loop.
+  bool add(const Vector& corner, std::size_t face) {
     if (count_ == corners_.size()) return false;
-    std::array<double, kMostFaces> above;  // [m] how far the corner is above each face
-    for (std::size_t i = 0; i < face_count_; ++i) {
-      above[i] = faces_[i].normal.dot(corner - corners_[faces_[i].corner[0]]);
-    }
     const double least = kSeen * size_;
-    if (!std::any_of(above.begin(), above.begin() + face_count_, [&](double height) { return height > least; })) {
-      return false;
-    }
+    if (!(heightAbove(faces_[face], corner) > least)) return false;
     // A face in whose plane the corner lies is replaced as well. It would remain below a face that points inward.
-    return replace(corner, above, -least) || replace(corner, above, least);
+    std::swap(faces_[face], faces_[face_count_ - 1]);
+    return replace(corner, -least) || replace(corner, least);
   }
 
-  /// Replaces the faces that the corner is above by more than `least` [m].
-  bool replace(const Vector& corner, const std::array<double, kMostFaces>& above, double least) {
+  double heightAbove(const OverlapFace& face, const Vector& corner) const {
+    return face.normal.dot(corner - corners_[face.corner[0]]);
+  }
+
+  static bool haveCommonEdge(const OverlapFace& a, const OverlapFace& b) {
+    int common = 0;
+    for (const std::uint16_t corner : a.corner) common += std::count(b.corner.begin(), b.corner.end(), corner) != 0;
+    return common >= 2;
+  }
+
+  /// Moves the last face, and those connected with it that the corner is above by more than `least` [m], to the end of
+  /// the list. Rounding can make other faces seem to be below the corner; these stay. @returns the number of moved
+  /// faces
+  std::size_t gatherSeen(const Vector& corner, double least) {
+    const auto last = faces_.begin() + static_cast<std::ptrdiff_t>(face_count_ - 1), end = last + 1;
+    const auto below = std::partition(faces_.begin(), last,
+                                      [&](const OverlapFace& face) { return !(heightAbove(face, corner) > least); });
+    auto seen = last;  // the faces from here on are connected
+    for (auto from = end; from != seen;) {
+      --from;
+      seen = std::partition(below, seen, [&](const OverlapFace& face) { return !haveCommonEdge(face, *from); });
+    }
+    return static_cast<std::size_t>(end - seen);
+  }
+
+  /// Replaces the faces that gatherSeen() finds.
+  bool replace(const Vector& corner, double least) {
     Edges edges, hole;  // of the seen faces, and those edges of them that belong to no other seen face
-    std::size_t kept = 0, edge_count = 0, hole_count = 0;
-    for (std::size_t i = 0; i < face_count_; ++i) {
+    const std::size_t kept = face_count_ - gatherSeen(corner, least);
+    std::size_t edge_count = 0, hole_count = 0;
+    for (std::size_t i = kept; i < face_count_; ++i) {
       const auto& on_face = faces_[i].corner;
-      kept += above[i] > least ? 0 : 1;
-      if (!(above[i] > least)) continue;
       for (std::size_t k = 0; k < 3; ++k) edges[edge_count++] = {on_face[k], on_face[(k + 1) % 3]};
     }
     const auto end = edges.begin() + static_cast<std::ptrdiff_t>(edge_count);
@@ -171,11 +212,7 @@ class Polytope {
       if (std::none_of(edges.begin(), end, isOpposite)) hole[hole_count++] = *edge;
     }
     if (kept + hole_count > faces_.size() || !isLoop(hole, hole_count)) return false;
-    const std::size_t all = face_count_;
-    face_count_ = 0;
-    for (std::size_t i = 0; i < all; ++i) {
-      if (!(above[i] > least)) faces_[face_count_++] = faces_[i];
-    }
+    face_count_ = kept;
     corners_[count_] = corner;
     for (std::size_t i = 0; i < hole_count; ++i) {
       addFace({hole[i].from, hole[i].to, static_cast<std::uint16_t>(count_)});
