@@ -63,6 +63,7 @@ int run(const Options& options) {
   part("queries", true, runQueries);
   part("single", true, runSingle);
   part("book", false, runBook);
+  part("exactness", false, runExactness);
   part("maps", !options.quick, runMaps);
   part("meshes", true, runMeshes);
   part("history", true, runHistory);

@@ -52,7 +52,8 @@ bool wanted(const std::vector<std::string>& list, const std::string& item) {
 
 const char* const kUsage =
     "usage: hgrid_bench [--quick] [--json FILE] [--commit TEXT] [--command TEXT]\n"
-    "                   [--part pairs,real,loading,ageing,threads,queries,single,maps,meshes,history,states,book]\n"
+    "                   [--part pairs,real,loading,ageing,threads,queries,single,maps,meshes,history,states,book,\n"
+    "                    exactness]\n"
     "                   [--n 1000,...]\n"
     "                   [--workload uniform,mixed,floor,robots,heaps2,heaps64,fleet,strays,diagonal,levy,rods,giants,\n"
     "                    torus,tower,line,decades,onecell,sizes,building,geb079,cloud]\n"

@@ -16,7 +16,7 @@ struct Options {
   std::string json;             ///< file to which the results are written; empty: no file
   std::string commit, command;  ///< Git commit and command line; they are written to the file
   std::vector<std::string> parts, workloads, peers, movers;
-  std::vector<std::size_t> sizes;
+  std::vector<std::size_t> sizes;  ///< numbers of boxes; of the part exactness: of pairs in each world
   /// Number of different queries of each kind, a multiple of 1,000. If fewer queries were repeated all the time, the
   /// branch predictor of the processor would learn them, and the times would be too short.
   std::size_t questions = 100000;

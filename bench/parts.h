@@ -45,6 +45,9 @@ void runSingle(const Options& options, std::vector<Record>& records);
 /// use the libraries of other projects.
 void runBook(const Options& options, std::vector<Record>& records);
 
+/// Measures how exact distances, touches and depths of convex shapes are, beside those of other libraries.
+void runExactness(const Options& options, std::vector<Record>& records);
+
 /// Compares maps of hgrid, OctoMap and FCL: loading, memory, and questions about the leaves. Also measures point
 /// clouds.
 void runMaps(const Options& options, std::vector<Record>& records);

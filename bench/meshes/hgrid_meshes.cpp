@@ -12,7 +12,7 @@ class HgridMeshes final : public MeshPeer {
   HgridMeshes(const TriangleMesh& first, const TriangleMesh& second) : first_(first), second_(second) {}
 
   double distance(const Pose& first_from_second, double up_to) const override {
-    const CoreGap gap = first_.gapTo(second_, first_from_second, up_to);
+    const CoreGap gap = first_.gapTo(second_, first_from_second, {0.0, up_to});
     return gap.lower <= 0.0 ? 0.0 : gap.upper;
   }
 

@@ -60,6 +60,12 @@ const std::vector<std::string>& missingPeers() {
 #ifndef HGRID_BENCH_BULLET
       "Bullet",
 #endif
+#ifndef HGRID_BENCH_BULLET_DOUBLE
+      "Bullet with doubles",
+#endif
+#ifndef HGRID_BENCH_CCD
+      "libccd",
+#endif
 #ifndef HGRID_BENCH_ODE
       "ODE",
 #endif
