@@ -12,7 +12,11 @@
 namespace hgrid {
 namespace {
 
-constexpr float kSlack = 1e-6f;     // [m] more than the errors of measured distances and of computed poses
+// [m] Least slack: shapes that are nearer than this are not told apart on an edge. It is the least tolerance of a
+// request, so it leaves nothing unknown that could be decided.
+constexpr double kLeastSlack = 1e-6;
+// Relative to the distance of the robot from the origin of the world: bound of the rounding errors of its place.
+constexpr double kRootRounding = 1e-14;
 constexpr double kFirstPart = 0.1;  // [m] no point of the robot travels farther on the first part of an edge
 constexpr double kProbe =
     0.1;  // [m] with EdgeRequest::any_contact, one configuration is tested per this length of path
@@ -32,7 +36,7 @@ Eigen::Vector4d turned(const Eigen::Vector4d& from, const Eigen::Vector4d& diffe
 }
 
 /// Adds the slack to a reach [m]. Shapes that do not move against each other have none: one state decides.
-float withSlack(float reach) { return reach > 0.0f ? reach + kSlack : 0.0f; }
+float withSlack(const EdgeInWork& work, float reach) { return reach > 0.0f ? reach + work.slack : 0.0f; }
 
 /// Returns the place on the edge of a configuration that is tested for contact. They are spread evenly: 1, 1/2, 1/4,
 /// 3/4, 1/8 and so on (the van der Corput sequence). @param number  1, 2 ...
@@ -62,6 +66,7 @@ EdgeSearch::EdgeSearch(const CheckerParts& all, const StateBatch& batch, const s
 
 void EdgeSearch::run() {
   const Pose world_from_root = all_.worldFromRoot(batch_);
+  root_rounding_ = kRootRounding * world_from_root.translation().norm();
   answers_.edges.assign(edges_.size(), EdgeAnswer{});
   answers_.pairs.clear();
   for (std::size_t lane = 0; lane < 4; ++lane) {
@@ -124,7 +129,8 @@ bool EdgeSearch::begin(std::size_t lane) {
     work.near.reset();
     work.doubt.reset();
     work.parts.clear();
-    work.path = all_.motion.find(memory_.from, memory_.difference, lane, work.motion);
+    work.path = all_.motion.find(memory_.from, memory_.values, memory_.difference, lane, work.motion);
+    work.slack = roundedUp(std::max(kLeastSlack, root_rounding_ + work.motion.rounding));
     work.probes = request_.any_contact ? static_cast<std::uint32_t>(std::min(work.path / kProbe, kMostProbes)) : 0;
     work.step = work.path > kFirstPart ? kFirstPart / work.path : 1.0;
     return true;
@@ -228,7 +234,7 @@ void EdgeSearch::findReaches(std::size_t lane) {
   if (work.searches_all) {
     for (std::size_t i = 0; i < memory_.shape_reach.size(); ++i) {
       all_.motion.findPart(i, half, work.motion);
-      memory_.shape_reach[i][lane] = withSlack(all_.motion.reachOf(i, work.motion));
+      memory_.shape_reach[i][lane] = withSlack(work, all_.motion.reachOf(i, work.motion));
     }
     return;
   }
@@ -237,9 +243,9 @@ void EdgeSearch::findReaches(std::size_t lane) {
     all_.motion.findPart(near.own, half, work.motion);
     if (near.with == With::self) {
       all_.motion.findPart(near.other, half, work.motion);
-      memory_.pair_reach[near.pair][lane] = withSlack(all_.motion.reachOfPair(near.pair, work.motion));
+      memory_.pair_reach[near.pair][lane] = withSlack(work, all_.motion.reachOfPair(near.pair, work.motion));
     } else {
-      memory_.shape_reach[near.own][lane] = withSlack(all_.motion.reachOf(near.own, work.motion));
+      memory_.shape_reach[near.own][lane] = withSlack(work, all_.motion.reachOf(near.own, work.motion));
     }
   }
 }
@@ -269,8 +275,10 @@ void EdgeSearch::findPairReaches(unsigned lanes) {
       const SelfPair& pair = pairs[i];
       const Four most = sum(memory_.shape_reach[pair.first], memory_.shape_reach[pair.second]);
       const unsigned near = overlapping(memory_.placed[pair.first].bounds, memory_.placed[pair.second].bounds, most);
-      set(memory_.pair_reach[i], near,
-          [&](std::size_t lane) { return withSlack(all_.motion.reachOfPair(i, memory_.edges[lane].motion)); });
+      set(memory_.pair_reach[i], near, [&](std::size_t lane) {
+        const EdgeInWork& work = memory_.edges[lane];
+        return withSlack(work, all_.motion.reachOfPair(i, work.motion));
+      });
     }
   }
 }
@@ -300,7 +308,7 @@ void EdgeSearch::use(std::size_t lane) {
     std::optional<std::uint32_t> doubt;
     const bool matters = !doubt_ && work.uncertain_from == kNowhere;  // otherwise the edge cannot become clear
     if (matters && !all_.doubts.none() && (work.searches_all || work.part.in_doubt)) {
-      doubt = all_.doubts.findNear(search_.robotIn(lane), 0.5 * length * work.path + kSlack);
+      doubt = all_.doubts.findNear(search_.robotIn(lane), 0.5 * length * work.path + static_cast<double>(work.slack));
     }
     if (search_.kept(lane).empty() && !doubt) {
       work.begin = work.part.tip;
