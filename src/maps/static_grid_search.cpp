@@ -200,9 +200,10 @@ bool StaticGrid::touches(const Sphere& sphere) const {
   return !search.visit(bricks_->start, Search::inSphere(in_keys), [](const Voxel&) { return false; });
 }
 
-std::optional<VoxelTouch> StaticGrid::firstAlong(const Segment& segment) const {
+std::optional<VoxelTouch> StaticGrid::firstAlong(const Segment& segment, double error) const {
   const Search search(*bricks_, finest_edge_);
-  LineSearch line(*bricks_, {search.keysAt(segment.from), search.keysAt(segment.to), search.keys(segment.radius)});
+  const Segment in_keys{search.keysAt(segment.from), search.keysAt(segment.to), search.keys(segment.radius)};
+  LineSearch line(*bricks_, in_keys, search.keys(error));
   VoxelTouch first = line.first();
   if (std::isinf(first.along)) return std::nullopt;
   first.along *= (segment.to - segment.from).norm();
