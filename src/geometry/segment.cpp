@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/rounding.h"
 #include "hgrid_proximity/geometry/sphere.h"
 
 namespace hgrid {
@@ -97,7 +98,7 @@ FirstTouch::FirstTouch(const Segment& segment, double error)
   const double slack = 2.0 * roundingSlack(segment.from.lpNorm<1>() + segment.to.lpNorm<1>()) + error;
   for (int axis = 0; axis < 3; ++axis) {
     const double size = std::abs(step[axis]);
-    clips_ = clips_ && (size == 0.0 || (size > 1e-100 && size < 1e100));
+    clips_ = clips_ && (size == 0.0 || (size > kLeastStep && size < 1e100));
     inverse_[axis] = 1.0 / step[axis];
     rounded_[axis] = slack * std::abs(inverse_[axis]);
   }

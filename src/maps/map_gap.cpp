@@ -4,8 +4,8 @@
 
 #include <limits>
 
+#include "geometry/rounding.h"
 #include "maps/distance_blocks.h"
-#include "narrow/gjk.h"
 
 namespace hgrid {
 

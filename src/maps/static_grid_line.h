@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "geometry/four_lanes.h"
+#include "geometry/rounding.h"
 #include "hgrid_proximity/maps/static_grid.h"
 #include "maps/brick.h"
 #include "maps/static_grid_bricks.h"
@@ -80,7 +81,7 @@ class LineSearch {
     around_ = segment.radius + 2.0 * roundingSlack(farthest + segment.radius) + error;  // more than FirstTouch allows
     length_ = step.norm();
     step_ = step[main_];
-    const double per_step = longest > 1e-100 ? 1.0 / step_ : 0.0;
+    const double per_step = longest > kLeastStep ? 1.0 / step_ : 0.0;
     const std::array<double, 2> slopes{step[axisOf(0)] * per_step, step[axisOf(1)] * per_step};
     begin(slopes);
     for (std::size_t i = 0; i < 2; ++i) {

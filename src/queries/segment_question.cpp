@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "geometry/rotation.h"
+#include "geometry/rounding.h"
 #include "hgrid_proximity/geometry/float_environment.h"
 #include "hgrid_proximity/queries/query.h"
-#include "narrow/gjk.h"
 #include "queries/question.h"
 
 namespace hgrid {
@@ -29,8 +29,9 @@ Pose poseAlong(const Segment& segment) {
 /// `at` is not on such a face.
 Eigen::Vector3d normalWhereEntered(const Eigen::AlignedBox3d& cube, const Eigen::Vector3d& at,
                                    const Eigen::Vector3d& direction) {
+  constexpr double kOnFace = 1e-6;  // [edge of the cube]
   Eigen::Vector3d normal = Eigen::Vector3d::Constant(QueryHit::kUnknown);
-  double nearest = 1e-6 * cube.sizes().maxCoeff();
+  double nearest = kOnFace * cube.sizes().maxCoeff();
   for (int axis = 0; axis < 3; ++axis) {
     if (direction[axis] == 0.0) continue;
     const double off = std::abs(at[axis] - (direction[axis] > 0.0 ? cube.min()[axis] : cube.max()[axis]));

@@ -211,7 +211,7 @@ CORE = [
     ("the bounds of a level do not follow a box that moves in its cell", LOOSE,
      "  entry.box = box;\n  extend(level, box);", "  entry.box = box;"),
     ("cells near the end of a slice are not visited", LOOSE,
-     "(slice + 1 + 1e-6) * edge", "(slice + 0.5) * edge"),
+     "(slice + 1 + kIndexRounding) * edge", "(slice + 0.5) * edge"),
     ("a line of step -0 enters a box of a tree where it leaves it", TREE_BODY,
      "line->inverse[i] < 0.0f", "step[i] < 0.0f"),
     ("a node with many nodes below has only one block", "broadphase/hgrid/query_tree.cpp",

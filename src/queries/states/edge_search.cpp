@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "geometry/rotation.h"
+#include "geometry/rounding.h"
 #include "queries/states/four_boxes.h"
 
 namespace hgrid {
@@ -15,9 +16,8 @@ namespace {
 // [m] Least slack: shapes that are nearer than this are not told apart on an edge. It is the least tolerance of a
 // request, so it leaves nothing unknown that could be decided.
 constexpr double kLeastSlack = 1e-6;
-// Relative to the distance of the robot from the origin of the world: bound of the rounding errors of its place.
-constexpr double kRootRounding = 1e-14;
-constexpr double kFirstPart = 0.1;  // [m] no point of the robot travels farther on the first part of an edge
+constexpr double kMoreThanHalf = 1.0 + 1e-6;  // makes up for the rounding of halves and of sums in floats
+constexpr double kFirstPart = 0.1;            // [m] no point of the robot travels farther on the first part of an edge
 constexpr double kProbe =
     0.1;  // [m] with EdgeRequest::any_contact, one configuration is tested per this length of path
 constexpr double kMostProbes = 64;   // upper limit of the number of tested configurations
@@ -25,8 +25,7 @@ constexpr float kCoarse = 0.02f;     // [m] shapes are not measured while they c
 constexpr std::size_t kFewNear = 8;  // if more shapes are near in the middle of a part, the next parts are shorter
 constexpr double kNowhere = 2.0;     // a place behind the end of an edge
 constexpr float kTooFar = -std::numeric_limits<float>::infinity();  // reach of shapes that cannot meet
-constexpr double kSameWay =
-    1e-6;  // [rad] if two ways around the circle differ by less than twice this, either may be taken
+constexpr double kSameWay = 1e-6;    // [rad] if two ways around the circle differ by less than twice this, both count
 constexpr double kShortest = 1e-12;  // parts of an edge that are this short are not divided
 
 /// Interpolates between two unit quaternions at constant speed, along the way on which `difference` leads.
@@ -66,7 +65,7 @@ EdgeSearch::EdgeSearch(const CheckerParts& all, const StateBatch& batch, const s
 
 void EdgeSearch::run() {
   const Pose world_from_root = all_.worldFromRoot(batch_);
-  root_rounding_ = kRootRounding * world_from_root.translation().norm();
+  root_rounding_ = gapRounding(world_from_root.translation().norm());
   answers_.edges.assign(edges_.size(), EdgeAnswer{});
   answers_.pairs.clear();
   for (std::size_t lane = 0; lane < 4; ++lane) {
@@ -230,7 +229,7 @@ void EdgeSearch::place(std::size_t lane) {
 void EdgeSearch::findReaches(std::size_t lane) {
   EdgeInWork& work = memory_.edges[lane];
   const MotionBounds::HalfPart half{memory_.groups.in_world, memory_.placed, all_.snapshot->origin(), lane,
-                                    0.5 * (work.part.tip - work.part.begin) * (1.0 + 1e-6)};
+                                    0.5 * (work.part.tip - work.part.begin) * kMoreThanHalf};
   if (work.searches_all) {
     for (std::size_t i = 0; i < memory_.shape_reach.size(); ++i) {
       all_.motion.findPart(i, half, work.motion);
@@ -255,7 +254,7 @@ void EdgeSearch::findReaches(std::size_t lane) {
 /// @param lanes  the lanes in which all shapes are searched
 void EdgeSearch::findPairReaches(unsigned lanes) {
   if (lanes == 0) return;
-  const auto sum = [](const Four& a, const Four& b) { return (a + b) * (1.0f + 1e-6f); };
+  const auto sum = [](const Four& a, const Four& b) { return (a + b) * static_cast<float>(kMoreThanHalf); };
   const auto set = [lanes](Four& reach, unsigned near, const auto& reachIn) {
     for (std::size_t lane = 0; lane < 4; ++lane) {
       if ((lanes >> lane & 1u) != 0) reach[lane] = (near >> lane & 1u) != 0 ? reachIn(lane) : kTooFar;
