@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "geometry/rounding.h"
+
 namespace hgrid {
 
 double reachOf(const Body& body) {
@@ -20,8 +22,8 @@ double relativeMotion(const Pose& world_from_first, const Pose& world_from_secon
   const Pose now = world_from_first_now.inverse() * world_from_second_now;
   // Two rotations move a unit vector to two points. The distance of these points is at most the norm of the difference
   // of the two rotation matrices. The rounding error is the error of coordinates in the world frame.
-  const double rounding = 1e-14 * (world_from_first_now.translation().norm() +
-                                   world_from_second_now.translation().norm() + now.translation().norm() + reach);
+  const double rounding = gapRounding(world_from_first_now.translation().norm() +
+                                      world_from_second_now.translation().norm() + now.translation().norm() + reach);
   return (now.translation() - before.translation()).norm() + (now.linear() - before.linear()).norm() * reach + rounding;
 }
 

@@ -108,18 +108,20 @@ bool withinDistance(const Aabb& a, const Aabb& b, double margin) {
   if (margin > 1e40) return true;  // no two floats are that far apart, and margin² might overflow
   const double squared = squaredDistance(a, b);
   const double limit = margin * margin;
-  const double doubt = 1e-14 * limit + 1e-290;  // far above underflow and the errors of `squared` and `limit`
+  constexpr double kSquareRounding = 1e-14, kUnderflow = 1e-290;  // far above the errors of `squared` and `limit`
+  const double doubt = kSquareRounding * limit + kUnderflow;
   if (squared < limit - doubt) return true;
   if (squared > limit + doubt) return false;
   return exactComparison(a, b, margin) <= 0.0;
 }
 
 Aabb grown(const Aabb& box, double by) {
+  constexpr double kSumRounding = 1e-15;  // more than the rounding error of a sum of two doubles
   Aabb result;
   for (int axis = 0; axis < 3; ++axis) {
     const double low = box.min[axis], high = box.max[axis];
-    result.min[axis] = roundedDown(low - by - 1e-15 * (std::abs(low) + by));  // 1e-15: more than the rounding error
-    result.max[axis] = roundedUp(high + by + 1e-15 * (std::abs(high) + by));
+    result.min[axis] = roundedDown(low - by - kSumRounding * (std::abs(low) + by));
+    result.max[axis] = roundedUp(high + by + kSumRounding * (std::abs(high) + by));
   }
   return result;
 }

@@ -24,7 +24,8 @@ Pose checkedPose(const Eigen::Vector3d& position, const Eigen::Vector4d& xyzw, c
                                           "; it must be within " + text(1.0 - kQuaternionTolerance) + " .. " +
                                           text(1.0 + kQuaternionTolerance));
   }
-  if (renormalized != nullptr && std::abs(squared_norm - 1.0) > 1e-6) *renormalized = true;
+  constexpr double kUnitTolerance = 1e-6;
+  if (renormalized != nullptr && std::abs(squared_norm - 1.0) > kUnitTolerance) *renormalized = true;
   Pose pose = Pose::Identity();
   pose.linear() = Eigen::Quaterniond(xyzw[3], xyzw[0], xyzw[1], xyzw[2]).normalized().toRotationMatrix();
   pose.translation() = position;

@@ -45,8 +45,8 @@ Eigen::Quaterniond rotationOf(const Eigen::Vector3d& roll_pitch_yaw) {
 Eigen::Quaterniond between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to, double fraction) {
   const Eigen::Vector4d begin = from.coeffs(), end = from.dot(to) < 0.0 ? -to.coeffs() : to.coeffs();
   const double angle = 2.0 * arcTangent((end - begin).norm(), (end + begin).norm()), whole = sine(angle);
-  // The sine of such an angle is the angle.
-  if (!(whole > 1e-9)) return Eigen::Quaterniond(begin + fraction * (end - begin));
+  constexpr double kSmall = 1e-9;  // the sine of such an angle is the angle
+  if (!(whole > kSmall)) return Eigen::Quaterniond(begin + fraction * (end - begin));
   return Eigen::Quaterniond((sine((1.0 - fraction) * angle) * begin + sine(fraction * angle) * end) / whole);
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/rounding.h"
 #include "hgrid_proximity/geometry/sphere.h"
 
 namespace hgrid {
@@ -90,13 +91,14 @@ std::optional<Meeting> meet(const Segment& segment, const Aabb& box) {
   return Meeting{*first * step.norm(), best, nearestPoint(box, segment.from + best_fraction * step)};
 }
 
-FirstTouch::FirstTouch(const Segment& segment) : segment_(segment), clips_(segment.radius == 0.0) {
+FirstTouch::FirstTouch(const Segment& segment, double error)
+    : segment_(segment), error_(error), clips_(segment.radius == 0.0) {
   const Eigen::Vector3d step = segment.to - segment.from;
   // This is more than the tolerance of meet() and more than the rounding errors of this class.
-  const double slack = 2.0 * roundingSlack(segment.from.lpNorm<1>() + segment.to.lpNorm<1>());
+  const double slack = 2.0 * roundingSlack(segment.from.lpNorm<1>() + segment.to.lpNorm<1>()) + error;
   for (int axis = 0; axis < 3; ++axis) {
     const double size = std::abs(step[axis]);
-    clips_ = clips_ && (size == 0.0 || (size > 1e-100 && size < 1e100));
+    clips_ = clips_ && (size == 0.0 || (size > kLeastStep && size < 1e100));
     inverse_[axis] = 1.0 / step[axis];
     rounded_[axis] = slack * std::abs(inverse_[axis]);
   }
@@ -122,7 +124,7 @@ std::optional<double> FirstTouch::operator()(const Aabb& box) const {
   }
   if (plain && surely_in < surely_out) return enter * length_;
   if (plain && perhaps_in > perhaps_out) return std::nullopt;
-  const auto meeting = meet(segment_, box);
+  const auto meeting = meet({segment_.from, segment_.to, segment_.radius + error_}, box);
   return meeting ? std::optional<double>(meeting->along) : std::nullopt;
 }
 

@@ -4,16 +4,10 @@
 
 #include <limits>
 
+#include "geometry/rounding.h"
 #include "maps/distance_blocks.h"
 
 namespace hgrid {
-namespace {
-
-/// Bounds the relative rounding errors of a box in the map and of its distance from a cell. Far from the origin they
-/// would otherwise hide a pair whose gap equals its margin.
-constexpr double kGapRounding = 1e-14;
-
-}  // namespace
 
 std::shared_ptr<const MapCells> makeMapCells(std::shared_ptr<const StaticGrid> grid, const NarrowPhase& narrow_phase,
                                              std::shared_ptr<const UnmappedSpace> unmapped, bool lasting) {
@@ -32,16 +26,15 @@ Eigen::AlignedBox3d boxInMap(const Pose& map_from_world, const Aabb& box, const 
   const Eigen::Vector3d low = box.min.cast<double>(), high = box.max.cast<double>();
   const Eigen::Vector3d middle = origin + 0.5 * (low + high);
   const Eigen::Vector3d center = map_from_world * middle;
-  const double rounding = kGapRounding * (middle.norm() + map_from_world.translation().norm() + (high - low).norm());
+  const double rounding = gapRounding(middle.norm() + map_from_world.translation().norm() + (high - low).norm());
   const Eigen::Vector3d half = (map_from_world.linear().cwiseAbs() * (0.5 * (high - low))).array() + rounding;
   return {center - half, center + half};
 }
 
 double gapTo(const StaticGrid& grid, const Eigen::AlignedBox3d& box, double up_to) {
   double least = std::numeric_limits<double>::infinity();
-  const double rounding = 1e-9 * (box.min().cwiseAbs().maxCoeff() + box.max().cwiseAbs().maxCoeff());
-  grid.visitNear(box, up_to + rounding, [&](const Voxel&, double distance) {
-    least = std::min(least, distance);
+  grid.visitNear(box, up_to + gapRounding(up_to), [&](const Voxel&, double distance) {
+    least = std::min(least, distance - gapRounding(distance));
     return distance > 0.0 ? distance : kNoFurther;
   });
   return least;

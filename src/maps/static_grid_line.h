@@ -10,9 +10,10 @@
 #include <cstdint>
 #include <limits>
 
+#include "geometry/four_lanes.h"
+#include "geometry/rounding.h"
 #include "hgrid_proximity/maps/static_grid.h"
 #include "maps/brick.h"
-#include "geometry/four_lanes.h"
 #include "maps/static_grid_bricks.h"
 
 namespace hgrid {
@@ -71,14 +72,16 @@ inline constexpr CellPlaces kCellPlaces;
 class LineSearch {
  public:
   /// @param segment  in keys (finest edges), relative to the origin of the map
-  LineSearch(const Bricks& bricks, const Segment& segment) : bricks_(bricks), segment_(segment) {
+  /// @param error    [keys] bound of the error of the segment
+  LineSearch(const Bricks& bricks, const Segment& segment, double error)
+      : bricks_(bricks), segment_(segment), error_(error) {
     const Eigen::Vector3d step = segment.to - segment.from;
     const double longest = step.cwiseAbs().maxCoeff(&main_);
     const double farthest = std::max(segment.from.cwiseAbs().maxCoeff(), segment.to.cwiseAbs().maxCoeff());
-    around_ = segment.radius + 2e-12 * (farthest + segment.radius);  // twice the tolerance of FirstTouch
+    around_ = segment.radius + 2.0 * roundingSlack(farthest + segment.radius) + error;  // more than FirstTouch allows
     length_ = step.norm();
     step_ = step[main_];
-    const double per_step = longest > 1e-100 ? 1.0 / step_ : 0.0;
+    const double per_step = longest > kLeastStep ? 1.0 / step_ : 0.0;
     const std::array<double, 2> slopes{step[axisOf(0)] * per_step, step[axisOf(1)] * per_step};
     begin(slopes);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -122,7 +125,8 @@ class LineSearch {
   /// less than 2^-20 of the edge of its cells.
   static constexpr float kRoom = 1.0f / (1 << 18);
 
-  /// The state of the search in one brick. Positions on the segment are measured in cells, from the minimum corner of the brick.
+  /// The state of the search in one brick. Positions on the segment are measured in cells, from the minimum corner of
+  /// the brick.
   struct Frame {
     std::uint64_t left;         // cells that the segment passes and that the search has not visited yet
     std::uint64_t cells, full;  // cells that are not empty; cells that are voxels
@@ -219,7 +223,7 @@ class LineSearch {
     const Brick brick = brickOf(frame, level);
     frame.left &= ~bricks_.cellsOfVoxel(brick, cell);
     const Voxel voxel = bricks_.voxelAt(brick, cell);
-    const auto along = FirstTouch(segment_)(keysOf(voxel));
+    const auto along = FirstTouch(segment_, error_)(keysOf(voxel));
     if (!along) return;
     const double share = length_ > 0.0 ? *along / length_ : 0.0;
     if (!(share < first_.along)) return;
@@ -262,6 +266,7 @@ class LineSearch {
 
   const Bricks& bricks_;
   const Segment segment_;
+  const double error_;
   int main_ = 0;
   double around_;  // [keys] radius of the segment plus a tolerance
   double length_;  // [keys] length of the segment

@@ -30,7 +30,8 @@ class Search {
     Eigen::Array3d min, max;
   };
   static Range rangeAround(const Eigen::Vector3d& min, const Eigen::Vector3d& max, double by) {
-    const double rounded = 1e-9 + 1e-12 * (std::max(min.cwiseAbs().maxCoeff(), max.cwiseAbs().maxCoeff()) + by);
+    constexpr double kLeast = 1e-9;  // [keys]
+    const double rounded = kLeast + roundingSlack(std::max(min.cwiseAbs().maxCoeff(), max.cwiseAbs().maxCoeff()) + by);
     return {min.array() - (by + rounded), max.array() + (by + rounded)};
   }
 
@@ -200,9 +201,10 @@ bool StaticGrid::touches(const Sphere& sphere) const {
   return !search.visit(bricks_->start, Search::inSphere(in_keys), [](const Voxel&) { return false; });
 }
 
-std::optional<VoxelTouch> StaticGrid::firstAlong(const Segment& segment) const {
+std::optional<VoxelTouch> StaticGrid::firstAlong(const Segment& segment, double error) const {
   const Search search(*bricks_, finest_edge_);
-  LineSearch line(*bricks_, {search.keysAt(segment.from), search.keysAt(segment.to), search.keys(segment.radius)});
+  const Segment in_keys{search.keysAt(segment.from), search.keysAt(segment.to), search.keys(segment.radius)};
+  LineSearch line(*bricks_, in_keys, search.keys(error));
   VoxelTouch first = line.first();
   if (std::isinf(first.along)) return std::nullopt;
   first.along *= (segment.to - segment.from).norm();
@@ -213,7 +215,7 @@ void StaticGrid::visitNear(const Eigen::AlignedBox3d& box, double limit, const L
   const Search search(*bricks_, finest_edge_);
   const Eigen::AlignedBox3d in_keys(search.keysAt(box.min()), search.keysAt(box.max()));
   const double farthest = std::max(in_keys.min().cwiseAbs().maxCoeff(), in_keys.max().cwiseAbs().maxCoeff());
-  const double rounded = 1e-12 * (farthest + 1.0);  // voxels within this distance count as touching
+  const double rounded = roundingSlack(farthest + 1.0);  // voxels within this distance count as touching
   double limit_in_keys = search.keys(limit) + rounded;
   search.near(bricks_->start, in_keys, limit_in_keys, [&](const Voxel& voxel, double distance) {
     return search.keys(look(voxel, distance > rounded ? search.meters(distance) : 0.0)) + rounded;

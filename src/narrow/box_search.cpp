@@ -5,6 +5,8 @@
 namespace hgrid {
 namespace {
 
+constexpr float kOfCenters = 1e-12f;  // the square of a millionth, see squaredGaps()
+
 Four absolute(Four value) { return greatest(value, -value); }
 
 /// Returns the product of a vector and four vectors.
@@ -67,7 +69,7 @@ Four squaredGaps(const BoxNode& node, const BoxNode& other, std::size_t lane, co
   }
   const Four between = greatest(by_centers, zero);
   // The quotient can be NaN. It comes first, since greatest() then returns the second value.
-  return greatest(between * between / squared_way, greatest(by_node, by_other)) + allFour(1e-12f) * squared_way;
+  return greatest(between * between / squared_way, greatest(by_node, by_other)) + allFour(kOfCenters) * squared_way;
 }
 
 }  // namespace hgrid

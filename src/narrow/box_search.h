@@ -95,7 +95,8 @@ class BoxSearch {
   }
 
   void setLimit(double limit) {
-    const double raised = (limit + rounding_) * (1.0 + 1e-6);
+    constexpr double kGrown = 1.0 + 1e-6;  // makes up for the rounding of the square to float
+    const double raised = (limit + rounding_) * kGrown;
     const auto squared = static_cast<float>(raised * raised);
     std::memcpy(&limit_key_, &squared, sizeof(squared));
     limit_key_ |= 3u;

@@ -13,10 +13,13 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr double kMostAlong = 61.0;    // cells along the longest side of the box around the mesh
-constexpr double kGrown = 1.0 + 1e-6;  // cells are tested against triangles as if they were larger by this factor
-constexpr int kFarthestEdges = 20;     // [edges] larger distances are stored as this one
-constexpr float kSteps = 8.0f;         // bounds are stored in steps of edge / kSteps
+constexpr double kMostAlong = 61.0;       // cells along the longest side of the box around the mesh
+constexpr double kLeastCell = 1e-12;      // [m] of a cell, for a mesh without size
+constexpr double kLeastEdgeShare = 1e-9;  // relative to the coordinates of a mesh: an edge is at least this
+constexpr double kBeside = 1e-3;          // [edges] cells that are this near to a triangle are tested, too
+constexpr double kGrown = 1.0 + 1e-6;     // cells are tested against triangles as if they were larger by this factor
+constexpr int kFarthestEdges = 20;        // [edges] larger distances are stored as this one
+constexpr float kSteps = 8.0f;            // bounds are stored in steps of edge / kSteps
 constexpr std::uint16_t kMost = 4 * kFarthestEdges * kFarthestEdges;  // [half edges^2] the largest squared distance
 
 /// Returns whether a triangle may touch a box around the origin. Separating axis test (Ericson 2005, section 5.2.9).
@@ -54,8 +57,8 @@ class DistanceLattice::Cells {
     Numbers first, end;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<Eigen::Index>(axis);
-      first[axis] = std::clamp(static_cast<int>(std::floor(low[k] - 1e-3)), 0, counts_[axis] - 1);
-      end[axis] = std::clamp(static_cast<int>(std::floor(high[k] + 1e-3)), 0, counts_[axis] - 1) + 1;
+      first[axis] = std::clamp(static_cast<int>(std::floor(low[k] - kBeside)), 0, counts_[axis] - 1);
+      end[axis] = std::clamp(static_cast<int>(std::floor(high[k] + kBeside)), 0, counts_[axis] - 1) + 1;
     }
     mark(triangle, first, end);
   }
@@ -152,11 +155,11 @@ DistanceLattice::DistanceLattice(const std::vector<Triangle>& triangles) {
   }
   // Corners that are far from the origin are rounded, which must be much less than an edge.
   const double farthest = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
-  edge_ = std::max({box.sizes().maxCoeff() / kMostAlong, 1e-9 * farthest, 1e-12});
+  edge_ = std::max({box.sizes().maxCoeff() / kMostAlong, kLeastEdgeShare * farthest, kLeastCell});
   std::array<int, 3> counts;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto k = static_cast<Eigen::Index>(axis);
-    counts[axis] = static_cast<int>(std::ceil(box.sizes()[k] / edge_ + 1e-3)) + 2;
+    counts[axis] = static_cast<int>(std::ceil(box.sizes()[k] / edge_ + kBeside)) + 2;
     counts_[axis] = static_cast<float>(counts[axis]);
     corner_[k] = box.center()[k] - 0.5 * counts[axis] * edge_;
   }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "geometry/rounding.h"
 #include "hgrid_proximity/geometry/pose.h"
 #include "hgrid_proximity/geometry/shape.h"
 
@@ -68,13 +69,11 @@ struct GapLimits {
   bool needs_normal = true;
 };
 
-/// Bound [m] of the rounding errors of a gap. @param size  [m] sum of the reaches of the cores and of their distance
-constexpr double gapRounding(double size) { return 1e-14 * size; }
-
 /// Computes lower and upper bounds of the distance of two convex cores (Gilbert, Johnson, Keerthi 1988; Ericson 2005,
 /// section 9.5).
 ///
-/// It ends when the bounds differ by at most 1e-10 m, or by twice gapRounding() if that is more, and when they say
+/// It ends when the bounds differ by at most 1e-10 m, or by twice gapRounding() of the sum of the reaches of the cores
+/// and of their distance if that is more, and when they say
 /// whether the gap is larger than `touch`. Where doubles do not suffice for this, it goes on with numbers of twice as
 /// many digits. A gap that then still may be `touch` is within gapRounding() of it. The normal is accurate to 1e-6
 /// rad, or 0. FCL's solvers end when the distance no longer shrinks, which can be centimeters too early.

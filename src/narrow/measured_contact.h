@@ -12,13 +12,16 @@ inline Contact measuredContact(const NarrowPhase& narrow_phase, const PlacedSoli
   return isContact(status) && status != Measure::failed ? narrow_phase.measureContact(first, second) : Contact{};
 }
 
+constexpr double kProvedLength = 1e-9;  ///< [m]
+constexpr double kProvedDepth = 1e-6;
+
 /// Completes the result for two convex solids that overlap: sets depth, normal and points, if the bounds of the depth
-/// prove it to 1e-6 of itself. Changes no other result.
+/// prove it to kProvedDepth of itself or to kProvedLength. Changes no other result.
 inline void describeOverlap(const NarrowPhase& narrow_phase, const PlacedSolid& first, const PlacedSolid& second,
                             Proximity& found) {
   if (found.status != Measure::contact || !std::isnan(found.depth)) return;
   const Contact contact = narrow_phase.measureContact(first, second);
-  if (!(contact.depth - contact.depth_at_least <= 1e-9 + 1e-6 * contact.depth)) return;
+  if (!(contact.depth - contact.depth_at_least <= kProvedLength + kProvedDepth * contact.depth)) return;
   found.depth = contact.depth;
   found.normal = contact.normal;
   found.on_first = found.on_second = contact.point;

@@ -24,6 +24,9 @@ constexpr double kCornerRounding = 1e-6;
 // [center_size_ of both hulls + length of the way] Bound of the rounding errors of the way between the centers.
 constexpr double kWayRounding = 1e-12;
 
+// Makes up for the rounding of coordinates along directions to float.
+constexpr double kRaised = 1.0 + 1e-6;
+
 bool isLess(const Vector& a, const Vector& b) {
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
@@ -117,7 +120,7 @@ bool MeshHull::isApart(const MeshHull& other, const Pose& this_from_other, doubl
   const Vector way = this_from_other * other.center_ - center_;
   const double length = way.norm(), rounding = kCornerRounding * (radius_ + other.radius_) +
                                                kWayRounding * (center_size_ + other.center_size_ + length);
-  const double least = (reach + rounding) * (1.0 + 1e-6), deepest = kDeep * std::min(radius_, other.radius_);
+  const double least = (reach + rounding) * kRaised, deepest = kDeep * std::min(radius_, other.radius_);
   if (!(length > least)) return false;
   Vector direction = way / length;
   for (int step = 0; step < kMostDirections; ++step) {

@@ -48,6 +48,11 @@ Contact contactAt(const Side& plane, const Side& other, const Vector& point) {
   return contact;
 }
 
+/// Bound [m] of the rounding errors of a distance from a plane.
+double roundingOf(const Side& plane, const Side& other, const Pose& plane_from_other) {
+  return gapRounding(other.solid.reach() + plane_from_other.translation().norm() + plane.around + other.around);
+}
+
 }  // namespace
 
 Proximity measurePlane(const Side& plane, const Side& other, double up_to) {
@@ -55,8 +60,8 @@ Proximity measurePlane(const Side& plane, const Side& other, double up_to) {
   const double around = plane.around + other.around;
   if (!plane_from_other.matrix().allFinite() || !(around >= 0.0)) return answerOf(Measure::failed, 0.0);
   if (other.solid.kind() == ShapeKind::plane) return answerOf(Measure::contact, 0.0);
-  const double size = other.solid.reach() + plane_from_other.translation().norm() + around;
-  const double rounding = gapRounding(size), infinity = std::numeric_limits<double>::infinity();
+  const double rounding = roundingOf(plane, other, plane_from_other);
+  const double infinity = std::numeric_limits<double>::infinity();
   if (plane_from_other.translation().z() - other.solid.reach() - around - rounding > up_to) {
     return answerOf(Measure::apart, infinity);
   }
@@ -92,9 +97,10 @@ std::vector<Contact> contactsOfPlane(const Side& plane, const Side& other, std::
     return {contactOfPlane(plane, other)};
   }
   std::vector<Contact> contacts;
+  const double highest = plane.around + other.around + kTouchingGap + roundingOf(plane, other, plane_from_other);
   for (const Triangle& triangle : static_cast<const MeshSolid&>(other.solid).tree().triangles()) {
     const Vector corner = lowest(triangle, plane_from_other);
-    if (corner.z() > plane.around + other.around + kTouchingGap) continue;
+    if (corner.z() > highest) continue;
     contacts.push_back(contactAt(plane, other, corner));
     if (contacts.size() == most) break;
   }

@@ -194,10 +194,10 @@ class FieldWork {
       return kInfinity;
     }
     const Vector point = lattice_.world_from_lattice * (lattice_.resolution * Vector(index[0], index[1], index[2]));
-    // The distance of a neighbor bounds this distance: it changes by at most the resolution. The factor and 1e-9 cover
-    // rounding errors.
-    const double limit =
-        std::min(request_.max_distance, 1.000001 * (std::max(0.0, beside) + lattice_.resolution) + 1e-9);
+    // The distance of a neighbor bounds this distance: it changes by at most the resolution. The factor makes up for
+    // rounding.
+    constexpr double kGrown = 1.0 + 1e-6;
+    const double limit = std::min(request_.max_distance, kGrown * (std::max(0.0, beside) + lattice_.resolution));
     Nearest nearest = meter_.nearestTo(point, limit, request_.max_distance);
     // If nothing is that near, the distance of the neighbor was too small, for example because the neighbor is inside
     // an open mesh. Then the whole distance is searched.

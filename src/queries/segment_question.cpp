@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "geometry/rotation.h"
+#include "geometry/rounding.h"
 #include "hgrid_proximity/geometry/float_environment.h"
 #include "hgrid_proximity/queries/query.h"
 #include "queries/question.h"
@@ -28,8 +29,9 @@ Pose poseAlong(const Segment& segment) {
 /// `at` is not on such a face.
 Eigen::Vector3d normalWhereEntered(const Eigen::AlignedBox3d& cube, const Eigen::Vector3d& at,
                                    const Eigen::Vector3d& direction) {
+  constexpr double kOnFace = 1e-6;  // [edge of the cube]
   Eigen::Vector3d normal = Eigen::Vector3d::Constant(QueryHit::kUnknown);
-  double nearest = 1e-6 * cube.sizes().maxCoeff();
+  double nearest = kOnFace * cube.sizes().maxCoeff();
   for (int axis = 0; axis < 3; ++axis) {
     if (direction[axis] == 0.0) continue;
     const double off = std::abs(at[axis] - (direction[axis] > 0.0 ? cube.min()[axis] : cube.max()[axis]));
@@ -68,7 +70,7 @@ class SegmentQuestion final : public Question {
     return isWithin(axis(exact).measure(snapshot, proxy, limit), limit);
   }
   bool isCellWithin(const PlacedMap& map, double distance) const override {
-    return map.cells.grid->firstAlong(inMap(map, segment_.radius + distance)).has_value();
+    return firstAlong(map, *map.cells.grid, inMap(map, segment_.radius + distance)).has_value();
   }
   bool isTouchedBy(const Sphere& sphere) const override;
   bool isFreeIn(const PlacedMap& map, const UnmappedSpace& unmapped) const override;
@@ -80,6 +82,11 @@ class SegmentQuestion final : public Question {
   }
   Segment inMap(const PlacedMap& map, double radius) const {
     return {map.map_from_world * segment_.from, map.map_from_world * segment_.to, radius};
+  }
+  /// Returns the voxel that a segment in the frame of a map touches first. Counts the rounding errors of inMap().
+  std::optional<VoxelTouch> firstAlong(const PlacedMap& map, const StaticGrid& cells, const Segment& in_map) const {
+    const double size = segment_.from.norm() + length_ + map.world_from_map.translation().norm();
+    return cells.firstAlong(in_map, gapRounding(size));
   }
   double firstTouch(ProxyId proxy, const NarrowPhase& exact, Proximity& found) const;
 
@@ -146,7 +153,7 @@ bool SegmentQuestion::hitsShape(ProxyId proxy, const NarrowPhase& exact, QueryHi
 
 bool SegmentQuestion::hitsMap(const PlacedMap& map, QueryHit& hit) const {
   const Segment in_map = inMap(map, segment_.radius);
-  const auto first = map.cells.grid->firstAlong(in_map);
+  const auto first = firstAlong(map, *map.cells.grid, in_map);
   if (!first) return false;
   const Eigen::Vector3d step = in_map.to - in_map.from;
   const Eigen::Vector3d at = in_map.from + (length_ > 0.0 ? first->along / length_ : 0.0) * step;
@@ -188,7 +195,7 @@ bool SegmentQuestion::isFreeIn(const PlacedMap& map, const UnmappedSpace& unmapp
   const auto speaksOf = [&](const Eigen::Vector3d& end) {
     return unmapped.extent.contains(grown(Eigen::AlignedBox3d(end), capsule.radius));
   };
-  return speaksOf(capsule.from) && speaksOf(capsule.to) && !unmapped.cells.firstAlong(capsule);
+  return speaksOf(capsule.from) && speaksOf(capsule.to) && !firstAlong(map, unmapped.cells, capsule);
 }
 
 }  // namespace

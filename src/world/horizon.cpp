@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/rounding.h"
+
 namespace hgrid {
 namespace {
 
@@ -30,9 +32,11 @@ Aabb sweptBox(const Aabb& from, const Aabb& to, double way) {
   return swept;
 }
 
-/// Returns the largest error [m] that the rounding of boxes can add to shiftOf().
+/// Returns the largest error [m] that the rounding of boxes and times can add to shiftOf().
 double roundingOf(const Aabb& box) {
-  return 4e-7 * std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff()) + 1e-9;
+  constexpr double kOfTime = 1e-9;  // [m] that a body goes at 1 m/s in a nanosecond, to which times are rounded
+  return kFloatRounding * static_cast<double>(std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff())) +
+         kOfTime;
 }
 
 }  // namespace

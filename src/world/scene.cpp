@@ -49,7 +49,8 @@ Scene::Scene(const SceneOptions& options) : state_(std::make_unique<State>(optio
   }
   checkLength(options.world_limit, kFarthestShape, "world_limit");
   checkLength(options.finest_edge, kLargestMargin, "finest_edge");
-  if (options.finest_edge > 0.0 && options.finest_edge < 1e-6) {
+  constexpr double kLeastEdge = 1e-6;  // [m]
+  if (options.finest_edge > 0.0 && options.finest_edge < kLeastEdge) {
     throw Refusal(Code::out_of_range,
                   "finest_edge is " + text(options.finest_edge) + " m; it must be 0 or at least 1e-06 m");
   }

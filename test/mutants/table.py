@@ -199,7 +199,7 @@ CORE = [
     ("the bounds of a level do not follow a box that moves in its cell", LOOSE,
      "  entry.box = box;\n  extend(level, box);", "  entry.box = box;"),
     ("cells near the end of a slice are not visited", LOOSE,
-     "(slice + 1 + 1e-6) * edge", "(slice + 0.5) * edge"),
+     "(slice + 1 + kIndexRounding) * edge", "(slice + 0.5) * edge"),
     ("a bit answers for too few coarse cells", "broadphase/hgrid/occupancy.cpp",
      "bits | bits >> 1", "bits"),
     ("a change of a rare shape ends a plan", "broadphase/hgrid/layer_plan.cpp",

@@ -137,6 +137,22 @@ TEST(PlanePair, ContactsAreThereExactlyIfTheShapesMeet) {
   }
 }
 
+/// Claim: far from the plane's origin, where rounding alone makes it a contact, the contact is in the list as well.
+TEST(PlanePair, AMeshInContactIsInTheListAlsoFarAway) {
+  auto mesh = std::make_shared<TriangleMesh>();
+  mesh->vertices = {{0, 0, 0}, {1, 0, 0.1}, {0, 1, 0.1}};
+  mesh->triangles = {{0, 1, 2}};
+  const std::shared_ptr<NarrowPhase> phase = makeCoreNarrowPhase();
+  const auto plane = phase->solidOf(Shape::plane()), solid = phase->solidOf(Shape::mesh(mesh));
+  for (const double gap : {0.0, 2e-9, 5e-9, 8e-9, 2e-8}) {
+    const PlacedSolid floor{*plane, Pose::Identity(), 0.0};
+    const PlacedSolid corner{*solid, Pose(Eigen::Translation3d(1e6, 0.0, gap)), 0.0};
+    const bool touches = gap < 1e-8;  // the bound of the rounding errors there
+    EXPECT_EQ(isContact(phase->measure(floor, corner, 1.0).status), touches) << gap;
+    EXPECT_EQ(phase->contacts(floor, corner, 9).size(), touches ? 1u : 0u) << gap;
+  }
+}
+
 TEST(PlanePair, VerticesThatNoTriangleUsesDoNotCountInAMesh) {
   auto mesh = std::make_shared<TriangleMesh>();
   mesh->vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -50}};

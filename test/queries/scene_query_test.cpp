@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "hgrid_proximity/queries/query.h"
+#include "test/support/maps.h"
 #include "test/support/refusals.h"
-#include "test/support/scenes.h"
 
 namespace hgrid {
 namespace {
@@ -207,6 +207,28 @@ TEST(SceneQuery, ABodyOfManyShapesIsHitOnceAtTheNearest) {
   ASSERT_EQ(back.total, 1u);
   EXPECT_EQ(back.hits[0].shape, 0u);
   EXPECT_NEAR(back.hits[0].along, 5.5, 1e-6);
+}
+
+/// Claim: far from the origin of the world, where the conversion into the frame of the map is rounded, no cell is lost.
+TEST(SceneQuery, SegmentsThatEndInACellOfAMapAreHitsFarAway) {
+  Random random(1);
+  int touches = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Pose world_from_map = test::randomPose(random, 1.0);
+    world_from_map.translation() *= 1e6;
+    Scene scene{SceneOptions{}};
+    scene.setCells(test::put(scene, test::mapBody("room"), world_from_map),
+                   test::cellsOf(0.1, {{Voxel::kOriginKey, Voxel::kOriginKey, Voxel::kOriginKey, 0}}));
+    const Eigen::Vector3d end(random.uniform(0.0, 4e-10), 0.03, 0.06);  // the cell begins at x = 0
+    const Segment segment{world_from_map * Eigen::Vector3d(-0.5, 0.04, 0.05), world_from_map * end, 0.0};
+    using Exact = Eigen::Matrix<long double, 3, 1>;
+    const Exact off = segment.to.cast<long double>() - world_from_map.translation().cast<long double>();
+    const Eigen::Matrix<long double, 3, 3> rotation = world_from_map.linear().cast<long double>();
+    if (Exact(rotation.inverse() * off).x() < 1e-12L) continue;  // rounding has moved the end out of the cell
+    ++touches;
+    EXPECT_EQ(query(*scene.commit(Time{1}, {}), segment, {}).verdict, Verdict::hit) << "segment " << i;
+  }
+  EXPECT_GT(touches, 1000);
 }
 
 TEST(SceneQuery, RefusesWhatIsNoQuestion) {

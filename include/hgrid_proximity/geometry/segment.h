@@ -43,12 +43,14 @@ std::optional<Meeting> meet(const Segment& segment, const Aabb& box);
 class FirstTouch {
  public:
   /// @param segment  must outlive this object
-  explicit FirstTouch(const Segment& segment);
+  /// @param error    [m] bound of the error of the segment; a box that the segment misses by less counts as touched
+  explicit FirstTouch(const Segment& segment, double error = 0.0);
   /// Returns the distance [m] along the segment to its first contact with the box, or nullopt if there is no contact.
   std::optional<double> operator()(const Aabb& box) const;
 
  private:
   const Segment& segment_;
+  double error_;
   // Whether clipping by slabs is allowed: the radius is 0, and 1 / step does not overflow on any axis where the segment
   // has a length.
   bool clips_;

@@ -32,7 +32,7 @@ inline double distance(const Aabb& box, const Eigen::Vector3d& point) { return s
 
 /// Returns the length [m] by which a query grows itself, so that rounding can add a hit but never lose one. It is a
 /// bound of the rounding errors for coordinates up to `largest` [m] and is far below the promised 1e-9 * largest.
-inline double roundingSlack(double largest) { return 1e-12 * largest; }
+constexpr double roundingSlack(double largest) { return 1e-12 * largest; }
 
 /// Returns the largest distance [m] from the center of the sphere at which a box still counts as touching it.
 inline double touchingDistance(const Sphere& sphere) {

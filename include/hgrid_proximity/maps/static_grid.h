@@ -68,7 +68,8 @@ class StaticGrid {
   /// Whether the sphere touches any voxel.
   bool touches(const Sphere& sphere) const;
   /// Returns the voxel that the segment touches first, or nullopt if it touches none.
-  std::optional<VoxelTouch> firstAlong(const Segment& segment) const;
+  /// @param error  [m] bound of the error of the segment; a voxel that the segment misses by less counts as touched
+  std::optional<VoxelTouch> firstAlong(const Segment& segment, double error = 0.0) const;
   /// Replaces `found` with the `count` voxels that are nearest to the box and within `limit` [m], nearest first. The
   /// box may be a single point. If more than `count` voxels are equally near, the voxels that the search reaches first
   /// are kept.

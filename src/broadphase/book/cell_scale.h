@@ -146,11 +146,11 @@ class CellScale {
   // The bounds [m] of the coordinates in a layer of cells, rounded outward. The outermost layers extend to infinity.
   double lowOf(std::int64_t layer) const {
     const double low = double(layer) * edge_;
-    return layer <= -static_cast<std::int64_t>(kLimit) ? -HUGE_VAL : low - 1e-12 * (std::abs(low) + edge_);
+    return layer <= -static_cast<std::int64_t>(kLimit) ? -HUGE_VAL : low - roundingSlack(std::abs(low) + edge_);
   }
   double highOf(std::int64_t layer) const {
     const double high = double(layer + 1) * edge_;
-    return layer >= static_cast<std::int64_t>(kLimit) ? HUGE_VAL : high + 1e-12 * (std::abs(high) + edge_);
+    return layer >= static_cast<std::int64_t>(kLimit) ? HUGE_VAL : high + roundingSlack(std::abs(high) + edge_);
   }
 
   double edge_, inverse_;

@@ -135,7 +135,8 @@ void KdNodes::sphereFrom(std::uint32_t index, const Eigen::Vector3d& center, Eig
     nearest[node.axis] = low ? in_low : in_high;
     // `radius` may have shrunk since the first side. The factor allows for rounding. Squares, because these are also
     // comparable if both overflow.
-    if ((nearest - center).squaredNorm() * (1.0 - 4e-12) <= radius * radius)
+    constexpr double kShrunk = 1.0 - 4e-12;
+    if ((nearest - center).squaredNorm() * kShrunk <= radius * radius)
       sphereFrom(low ? index + 1 : node.high, center, nearest, radius, visit);
   }
   nearest[node.axis] = before;
@@ -156,7 +157,7 @@ void KdNodes::segmentFrom(std::uint32_t index, const QueryShape& shape, double e
   // is below `low_plane`, and in the high side where it is above `high_plane`.
   const double low_plane = double(node.low_end) + shape.radiusWithSlack() - from;
   const double high_plane = double(node.high_begin) - shape.radiusWithSlack() - from;
-  const bool parallel = std::abs(step) <= 1e-100;
+  const bool parallel = std::abs(step) <= kLeastStep;
   for (const bool low : {!(step < 0.0), step < 0.0}) {  // the nearer side first
     const double plane = low ? low_plane : high_plane;
     double first = enter, last = leave;
@@ -167,7 +168,7 @@ void KdNodes::segmentFrom(std::uint32_t index, const QueryShape& shape, double e
     } else {
       first = std::max(enter, plane / step);
     }
-    if (first <= last + 1e-12 && first <= until + 1e-12)
+    if (first <= last + kFractionRounding && first <= until + kFractionRounding)
       segmentFrom(low ? index + 1 : node.high, shape, first, last, until, visit);
   }
 }

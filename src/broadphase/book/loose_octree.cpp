@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "broadphase/book/cell_scale.h"
+#include "geometry/rounding.h"
 
 namespace hgrid {
 namespace book {
@@ -50,7 +51,8 @@ Aabb LooseOctree::regionOf(const Place& place) const {
   Aabb region;
   for (int axis = 0; axis < 3; ++axis) {
     const double low = low_[axis] + (index[axis] - 0.5) * width, high = low + 2.0 * width;
-    const double rounding = 2e-7 * (std::abs(low) + std::abs(high)) + 1e-37;  // includes the conversions to float
+    constexpr double kFloats = 2e-7;  // includes the conversions to float
+    const double rounding = kFloats * (std::abs(low) + std::abs(high)) + kFloatRoundingNearZero;
     // Boxes are finite, so a finite region is large enough. An infinite one would make its distance from a sphere NaN.
     region.min[axis] = static_cast<float>(std::max(low - rounding, -kLargestFloat));
     region.max[axis] = static_cast<float>(std::min(high + rounding, kLargestFloat));

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "broadphase/book/partition.h"
+#include "geometry/rounding.h"
 
 namespace hgrid {
 namespace book {
@@ -122,7 +123,7 @@ void Partition::findNearest(const Eigen::Vector3d& point, std::size_t count, dou
   // Searches spheres of growing radius. The first one reaches into the world by the distance at which `count` boxes are
   // expected, if the boxes are spread evenly.
   const double size = (world_.max.cast<double>() - world_.min.cast<double>()).maxCoeff();
-  double step = 0.5 * size * std::cbrt(static_cast<double>(count) / static_cast<double>(count_)) + 1e-30;
+  double step = 0.5 * size * std::cbrt(static_cast<double>(count) / static_cast<double>(count_)) + kLeastLength;
   double radius = std::min(distance(world_, point) + step, limit);
   std::vector<ProxyId> near;
   for (;;) {

@@ -45,7 +45,7 @@ int QueryShape::longAxis() const {
 }
 
 Aabb QueryShape::slice(int axis, double low, double high) const {
-  if (kind_ == Kind::segment && std::abs(step_[axis]) > 1e-100) {
+  if (kind_ == Kind::segment && std::abs(step_[axis]) > kLeastStep) {
     // A sphere that moves along the segment reaches into the slice only while its center is within
     // `radius_with_slack_` of the slice. The slack is far above the rounding errors of these fractions.
     double first = (low - radius_with_slack_ - segment_.from[axis]) / step_[axis];
@@ -65,18 +65,19 @@ bool QueryShape::mayTouch(const Aabb& region) const {
   if (!overlap(bounds_, region)) return false;
   if (kind_ == Kind::box) return true;
   if (kind_ == Kind::sphere)
-    return squaredDistance(region, sphere_.center) <= radius_with_slack_ * radius_with_slack_ * (1.0 + 1e-12);
+    return squaredDistance(region, sphere_.center) <=
+           radius_with_slack_ * radius_with_slack_ * (1.0 + kFractionRounding);
   // The line from + t * step is clipped by the slabs of the region, which are grown by the thickness of the segment.
   double enter = 0.0, leave = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
     const double low = region.min[axis] - radius_with_slack_ - segment_.from[axis];
     const double high = region.max[axis] + radius_with_slack_ - segment_.from[axis];
-    if (std::abs(step_[axis]) <= 1e-100) continue;  // the test of `bounds_` above has decided this axis
+    if (std::abs(step_[axis]) <= kLeastStep) continue;  // the test of `bounds_` above has decided this axis
     const double a = low / step_[axis], b = high / step_[axis];
     enter = std::max(enter, std::min(a, b));
     leave = std::min(leave, std::max(a, b));
   }
-  return enter <= leave + 1e-12;
+  return enter <= leave + kFractionRounding;
 }
 
 }  // namespace book

@@ -2,12 +2,16 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include "geometry/rounding.h"
 #include "hgrid_proximity/geometry/aabb.h"
 #include "hgrid_proximity/geometry/segment.h"
 #include "hgrid_proximity/geometry/sphere.h"
 
 namespace hgrid {
 namespace book {
+
+/// Bound of the rounding errors of a fraction of a segment, and of a square relative to itself.
+constexpr double kFractionRounding = 1e-12;
 
 /// The shape of a query: a box, a sphere or a swept segment. A partition asks it which cells and nodes to visit.
 ///

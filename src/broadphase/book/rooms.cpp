@@ -9,6 +9,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "geometry/rounding.h"
+
 namespace hgrid {
 namespace {
 
@@ -20,14 +22,14 @@ void require(bool holds, const std::string& what) {
 bool mayBeIn(const Room& room, const Aabb& box) {
   for (const RoomWall& wall : room.walls) {
     // `least` is the smallest value of normal . p over all points p of the box; `rounding` is the sum of the
-    // absolute values of all terms; rounding errors stay below 1e-14 of it.
+    // absolute values of all terms.
     double least = 0.0, rounding = std::abs(wall.offset);
     for (int axis = 0; axis < 3; ++axis) {
       const double corner = wall.normal[axis] > 0.0 ? double(box.min[axis]) : double(box.max[axis]);
       least += wall.normal[axis] * corner;
       rounding += std::abs(wall.normal[axis] * corner);
     }
-    if (least > wall.offset + 1e-14 * rounding) return false;
+    if (least > wall.offset + gapRounding(rounding)) return false;
   }
   return true;
 }

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "geometry/rounding.h"
+
 namespace hgrid {
 namespace book {
 
@@ -115,7 +117,7 @@ void SweepLists::candidates(const QueryShape& shape, std::vector<ProxyId>& found
   for (int k = 0; k < 3; ++k) {
     const double left = double(around.max[k]) - double(world().min[k]),
                  right = double(world().max[k]) - double(around.min[k]);
-    const double share = std::min(left, right) / std::max(size[k], 1e-30);
+    const double share = std::min(left, right) / std::max(size[k], kLeastLength);
     if (share >= shortest) continue;
     shortest = share, axis = k, from_left = left <= right;
   }

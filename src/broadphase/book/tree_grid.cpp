@@ -79,7 +79,8 @@ void TreeGrid::candidates(const QueryShape& shape, std::vector<ProxyId>& found) 
   };
   // If the shape touches a box in a point p, the minimum corner of the box is at most one edge below p on each axis. So
   // a shape that is grown by one edge touches the cell of this corner. Only a segment is grown on all sides.
-  const double edge = scale_.edge() * (1.0 + 1e-9);
+  constexpr double kGrown = 1.0 + 1e-9;  // makes up for the rounding of cells
+  const double edge = scale_.edge() * kGrown;
   Aabb reach = shape.bounds();
   for (int axis = 0; axis < 3; ++axis) reach.min[axis] = roundedDown(double(reach.min[axis]) - edge);
   Segment thick = shape.segment();

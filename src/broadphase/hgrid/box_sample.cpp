@@ -9,6 +9,7 @@
 
 #include "broadphase/kernels/kernels.h"
 #include "geometry/infinity.h"
+#include "geometry/rounding.h"
 
 namespace hgrid {
 namespace {
@@ -89,7 +90,7 @@ bool BoxSample::isThin(std::size_t axis, const std::array<double, 3>& sides) con
     const auto [least, most] = std::minmax_element(from, to, [i](const auto& a, const auto& b) { return a[i] < b[i]; });
     return static_cast<double>((*most)[i]) - (*least)[i];
   };
-  const auto side = [&sides](std::size_t i) { return std::max(sides[i], 1e-30); };
+  const auto side = [&sides](std::size_t i) { return std::max(sides[i], kLeastLength); };
   const auto area = [&](auto from, auto to) {
     return (extent(from, to, y) + side(y)) * (extent(from, to, z) + side(z));
   };

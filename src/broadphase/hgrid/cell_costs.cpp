@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "geometry/rounding.h"
+
 namespace hgrid {
 namespace {
 
@@ -66,7 +68,7 @@ Cells bestCellsOf(const Census& level, const Window& window) {
   const auto withEdge = [&](double across) {
     return cellsOf(level, window, window.axes, across, across, across / kMostCellsAlongBox);
   };
-  const double widest = std::max({level.largest[y], level.largest[z], 1e-30});
+  const double widest = std::max({level.largest[y], level.largest[z], kLeastLength});
   Cells best;
   for (const double factor : {0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 4.0, 6.0, 10.0, 20.0, 50.0, 200.0, 1e3, 1e4}) {
     Cells cells = withEdge(factor * widest);
@@ -75,7 +77,7 @@ Cells bestCellsOf(const Census& level, const Window& window) {
   }
   // The boxes may be so sparse that all these edges give too many cells. Then the number of rows determines the edge.
   if (!std::isfinite(best.cost)) {
-    const double longest = std::max({window.length(y), window.length(z), 1e-30});
+    const double longest = std::max({window.length(y), window.length(z), kLeastLength});
     best = withEdge(2.0 * longest / std::sqrt(window.mostCells(level.boxes)));
   }
   return best;
@@ -93,7 +95,7 @@ Cells oneRowOf(const Census& all, const BoxSample& sample, const Window& window,
     cells.count.fill(1.0);
     const double length = window.length(axis);
     const double most = std::min(window.mostCells(all.boxes), kMostCellsOnAxis) - 1.0;
-    cells.edge[axis] = std::max({all.largest[axis] / kMostCellsAlongBox, length / most, 1e-30});
+    cells.edge[axis] = std::max({all.largest[axis] / kMostCellsAlongBox, length / most, kLeastLength});
     cells.count[axis] = cellsAlong(length, cells.edge[axis]);
     const double reach = all.mean(axis) + 0.5 * cells.edge[axis];
     if (costOf(sample.leastFollowers(axis, reach)) > most_cost) continue;

@@ -8,10 +8,10 @@
 
 #include "broadphase/hgrid/cell_costs.h"
 #include "broadphase/hgrid/shape_levels.h"
+#include "geometry/rounding.h"
 
 namespace hgrid {
 namespace {
-
 
 constexpr std::size_t kFewInOneRow = 2048;   // boxes; so few may share a row, even if queries must test all its leaves
 constexpr std::size_t kWorthShapes = 4096;   // boxes; for fewer, planning levels by shape takes too long
@@ -35,7 +35,7 @@ Window windowOf(const BoxSample& sample, const Census::Vector& lower, const Cens
 /// This is x unless another axis is clearly longer.
 std::array<std::size_t, 3> axesFor(const Window& window, const Census& all) {
   constexpr double kClearly = 2.0;
-  const auto length = [&](std::size_t axis) { return window.length(axis) / std::max(all.mean(axis), 1e-30); };
+  const auto length = [&](std::size_t axis) { return window.length(axis) / std::max(all.mean(axis), kLeastLength); };
   const std::size_t other = length(2) > length(1) ? 2 : 1;
   if (!(length(other) > kClearly * length(0))) return {0, 1, 2};
   return other == 1 ? std::array<std::size_t, 3>{1, 0, 2} : std::array<std::size_t, 3>{2, 0, 1};
@@ -46,7 +46,7 @@ void append(CellPlan& plan, const Census& census, const Window& window, const Ce
   const std::size_t number = plan.levels++;
   kernels::Grid& grid = plan.grids[number];
   for (std::size_t i = 0; i < 3; ++i) {
-    grid.inverse[i] = static_cast<float>(1.0 / std::clamp(cells.edge[i], 1e-30, 1e30));
+    grid.inverse[i] = static_cast<float>(1.0 / std::clamp(cells.edge[i], kLeastLength, 1e30));
     grid.origin[i] = static_cast<float>(window.low[i] * static_cast<double>(grid.inverse[i]));
     grid.last[i] = static_cast<float>(cells.count[i] - 1.0);
     plan.largest[number][i] = static_cast<float>(census.largest[i]);

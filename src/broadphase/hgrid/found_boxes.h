@@ -9,6 +9,7 @@
 #include "broadphase/hgrid/layer.h"
 #include "broadphase/hgrid/loose_boxes.h"
 #include "broadphase/hgrid/position_writer.h"
+#include "geometry/rounding.h"
 #include "hgrid_proximity/geometry/segment.h"
 #include "hgrid_proximity/geometry/sphere.h"
 
@@ -28,7 +29,7 @@ inline bool overlap(const kernels::Box& a, const kernels::Box& b) {
 /// against the sphere itself.
 inline kernels::Box boxOf(const Sphere& sphere) {
   // The sum is computed beside the corners, not before them: a query into empty space takes hardly longer than this.
-  const double slack = 2.0 * roundingSlack(sphere.center.lpNorm<1>() + sphere.radius) + 1e-37;
+  const double slack = 2.0 * roundingSlack(sphere.center.lpNorm<1>() + sphere.radius) + kFloatRoundingNearZero;
   kernels::Box box;
   for (int axis = 0; axis < 3; ++axis) {
     constexpr double kRounding = 2.5e-7;  // allows for two roundings to float

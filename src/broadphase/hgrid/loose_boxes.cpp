@@ -9,6 +9,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "geometry/rounding.h"
+#include "hgrid_proximity/geometry/sphere.h"
+
 namespace hgrid {
 namespace {
 
@@ -140,8 +143,8 @@ void LooseBoxes::unlink(std::uint32_t place) {
 void LooseBoxes::extend(Level& level, const Aabb& box) {
   for (int axis = 0; axis < 3; ++axis) {
     const double low = box.min[axis], high = box.max[axis];
-    level.longest =
-        std::max(level.longest, (high - low) * (1.0 + 1e-15));  // not less than the side, in spite of rounding
+    constexpr double kGrown = 1.0 + 1e-15;  // not less than the side, in spite of rounding
+    level.longest = std::max(level.longest, (high - low) * kGrown);
     level.around.min[axis] = std::min(level.around.min[axis], box.min[axis]);
     level.around.max[axis] = std::max(level.around.max[axis], box.max[axis]);
   }
@@ -278,7 +281,7 @@ void LooseBoxes::along(const kernels::Line& line, kernels::PositionSink* sink) c
   using Bounds = std::array<std::array<double, 2>, 3>;
   const auto part = [&](double low, double high, double reach) {
     double first = 0.0, last = 1.0;
-    if (std::abs(line.step[axis]) > 1e-100) {
+    if (std::abs(line.step[axis]) > kLeastStep) {
       first = (low - reach - line.from[axis]) / line.step[axis];
       last = (high + reach - line.from[axis]) / line.step[axis];
       if (first > last) std::swap(first, last);
@@ -292,7 +295,7 @@ void LooseBoxes::along(const kernels::Line& line, kernels::PositionSink* sink) c
     return bounds;
   };
   constexpr double kBeyond = 1e31;  // [m] farther than any part of the line
-  const Bounds near = part(-kBeyond, kBeyond, line.around + 1e-12 * farthest);
+  const Bounds near = part(-kBeyond, kBeyond, line.around + roundingSlack(farthest));
   kernels::Box bounds;
   for (std::size_t i = 0; i < 3; ++i) bounds.min[i] = roundedDown(near[i][0]), bounds.max[i] = roundedUp(near[i][1]);
   const auto touches = [&](const Aabb& box) { return touchesBox(bounds, box); };
@@ -301,8 +304,8 @@ void LooseBoxes::along(const kernels::Line& line, kernels::PositionSink* sink) c
     const Level& level = levels_[number];
     if (!touchesBox(bounds, level.around)) continue;
     const double edge = 1.0 / level.inverse;
-    // Far more than what rounding can add up to.
-    const double reach = line.around + (0.5 + 1e-9) * level.longest + 1e-12 * farthest;
+    constexpr double kHalf = 0.5 + 1e-9, kIndexRounding = 1e-6;  // far more than what rounding can add up to
+    const double reach = line.around + kHalf * level.longest + roundingSlack(farthest);
     const double across = 3.0 + 4.0 * reach * level.inverse;  // cells of a slice on each other axis, at most
     const double slices = 2.0 + (std::abs(line.step[axis]) + 2.0 * reach) * level.inverse;
     if (kBoxesPerCell * slices * across * across > static_cast<double>(level.entries.size())) {
@@ -314,8 +317,8 @@ void LooseBoxes::along(const kernels::Line& line, kernels::PositionSink* sink) c
     for (std::int32_t slice = indexOf(whole[axis][0], level); slice <= end; ++slice) {
       // The outermost slices hold everything beyond them. Indices of cells are rounded to 2^-22 of an edge.
       const bool outermost = std::abs(slice) >= kFarthest;
-      const Bounds here =
-          part(outermost ? -kBeyond : (slice - 1e-6) * edge, outermost ? kBeyond : (slice + 1 + 1e-6) * edge, reach);
+      const Bounds here = part(outermost ? -kBeyond : (slice - kIndexRounding) * edge,
+                               outermost ? kBeyond : (slice + 1 + kIndexRounding) * edge, reach);
       Cell low, high;
       for (std::size_t i = 0; i < 3; ++i) low[i] = indexOf(here[i][0], level), high[i] = indexOf(here[i][1], level);
       low[axis] = high[axis] = slice;

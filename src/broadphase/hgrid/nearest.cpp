@@ -8,6 +8,7 @@
 
 #include "broadphase/hgrid/engine.h"
 #include "broadphase/hgrid/found_boxes.h"
+#include "geometry/rounding.h"
 
 namespace hgrid {
 namespace {
@@ -23,7 +24,7 @@ double likelyRadius(const kernels::Level& level, std::size_t count) {
 /// Estimates the radius [m] of a sphere that contains `count` boxes of a layer with one row. `leaf` is the bounds of
 /// some of them.
 double likelyRadius(const kernels::Level& level, const kernels::Box& leaf, std::size_t count) {
-  double longest = 1e-30;
+  double longest = kLeastLength;
   std::array<double, 3> sides;
   for (int i = 0; i < 3; ++i) {
     longest = std::max(longest, static_cast<double>(leaf.max[i]) - leaf.min[i]);
@@ -34,12 +35,12 @@ double likelyRadius(const kernels::Level& level, const kernels::Box& leaf, std::
   const double share = static_cast<double>(count) / (level.end - level.begin), on_line = share * sides[2];
   const double on_surface = std::sqrt(on_line * sides[1]), in_space = std::cbrt(on_line * sides[1] * sides[0]);
   const double along_row = longest * std::max(1.0, static_cast<double>(count) / BoundsTree::kPerLeaf);
-  return std::min(along_row, std::max({0.5 * on_line, 0.5 * on_surface, 0.5 * in_space, 1e-30}));
+  return std::min(along_row, std::max({0.5 * on_line, 0.5 * on_surface, 0.5 * in_space, kLeastLength}));
 }
 
 /// Estimates the radius [m] of a sphere that contains `count` of some boxes, whose number and common bounds are given.
 double likelyRadius(const kernels::Box& bounds, std::size_t boxes, std::size_t count) {
-  double longest = 1e-30;
+  double longest = kLeastLength;
   for (int i = 0; i < 3; ++i) longest = std::max(longest, static_cast<double>(bounds.max[i]) - bounds.min[i]);
   return longest * std::cbrt(static_cast<double>(count) / static_cast<double>(boxes));
 }
@@ -99,13 +100,14 @@ bool nearer(const NearHit& a, const NearHit& b) {
 /// @param radius  [m] where the rings end; hits may be farther away
 void keepNearest(std::vector<NearHit>& hits, std::size_t count, double radius) {
   constexpr std::size_t kFew = 8, kRings = 32;
+  constexpr double kLeastRadius = 1e-300;  // [m] of a division
   if (hits.size() <= 1) return;
   if (count == 1) {
     std::iter_swap(hits.begin(), std::min_element(hits.begin(), hits.end(), nearer));
     return hits.resize(1);
   }
   if (hits.size() > count + kFew) {
-    const double scale = kRings / std::max(radius, 1e-300);
+    const double scale = kRings / std::max(radius, kLeastRadius);
     const auto ringOf = [scale](const NearHit& hit) {  // the last ring if the product is NaN
       return static_cast<std::uint32_t>(std::min(kRings - 1.0, hit.distance * scale));
     };

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "geometry/infinity.h"
+#include "geometry/rounding.h"
+#include "hgrid_proximity/geometry/sphere.h"
 
 namespace hgrid {
 namespace {
@@ -26,16 +28,17 @@ void Occupancy::set(const std::vector<kernels::Level>& levels) {
       all.max[axis] = std::max(all.max[axis], level.around.max[axis]);
     }
   }
-  slack_ = 1e-6;
+  constexpr double kLeastSlack = 1e-6;  // [cells] allows for the rounding within the bounds of all boxes
+  slack_ = kLeastSlack;
   double longest = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     longest = std::max(longest, static_cast<double>(all.max[axis]) - static_cast<double>(all.min[axis]));
   }
   // The cells are cubes. If they were as flat as the bounds, a line would pass many of them.
-  inverse_ = longest > 1e-30 && longest < 1e30 ? (kLast + 1.0) / longest : 0.0;
+  inverse_ = longest > kLeastLength && longest < 1e30 ? (kLast + 1.0) / longest : 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     origin_[axis] = inverse_ > 0.0 ? static_cast<double>(all.min[axis]) * inverse_ : 0.0;
-    slack_ += 1e-12 * std::abs(origin_[axis]);
+    slack_ += roundingSlack(std::abs(origin_[axis]));
   }
   rows_.assign(kRows, 0);
   std::size_t marks = 0;

@@ -11,6 +11,7 @@
 
 #include "broadphase/hgrid/box_sample.h"
 #include "geometry/infinity.h"
+#include "geometry/rounding.h"
 
 namespace hgrid {
 namespace {
@@ -88,7 +89,7 @@ class RegionTree::Division {
       }
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      side_[axis] = std::max(sides[axis] / static_cast<double>(samples_.size()), 1e-30);
+      side_[axis] = std::max(sides[axis] / static_cast<double>(samples_.size()), kLeastLength);
     }
   }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/rounding.h"
+
 namespace hgrid {
 namespace {
 
@@ -35,7 +37,9 @@ void selectCells(ShapeLevels& levels, std::size_t number, const Window& window) 
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t x = 0; x < 3; ++x) {
     const AxisOrder axes = rowsAlong(x);
-    const auto edge = [&](std::size_t axis, double factor) { return factor * std::max(census.largest[axis], 1e-30); };
+    const auto edge = [&](std::size_t axis, double factor) {
+      return factor * std::max(census.largest[axis], kLeastLength);
+    };
     for (const double factor_y : kFactors) {
       for (const double factor_z : kFactors) {
         const Cells cells = cellsOf(census, window, axes, edge(axes[1], factor_y), edge(axes[2], factor_z),
@@ -52,7 +56,7 @@ void selectCells(ShapeLevels& levels, std::size_t number, const Window& window) 
   if (!std::isfinite(least)) {
     // The boxes are so sparse that all these edges give too many cells. Then the number of rows determines the edges.
     const double edge =
-        2.0 * std::max({window.length(1), window.length(2), 1e-30}) / std::sqrt(window.mostCells(census.boxes));
+        2.0 * std::max({window.length(1), window.length(2), kLeastLength}) / std::sqrt(window.mostCells(census.boxes));
     best = cellsOf(census, window, rowsAlong(0), edge, edge, kLeastFactor * census.largest[0]);
   }
   levels.cells[number] = best;

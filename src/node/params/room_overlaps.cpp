@@ -9,7 +9,6 @@ namespace {
 
 constexpr std::size_t kMostNeighbors = 10000;  // largest number of pairs of rooms whose bounds overlap
 constexpr double kThickness = 1e-3;            // [m] a thinner overlap is a wall
-constexpr double kRounding = 1e-6;             // [m] a door is enlarged by this
 constexpr double kFarthestRoom = 2e6;          // [m] larger than any coordinate of a room that is not open
 
 /// Returns the space that two rooms have in common.
@@ -24,7 +23,8 @@ Room commonSpace(const Room& a, const Room& b, double inward) {
 }  // namespace
 
 void addOverlaps(const std::vector<Room>& rooms, std::vector<Portal>& doors, std::vector<std::string>& errors) {
-  const Eigen::Vector3d far = Eigen::Vector3d::Constant(kFarthestRoom), rounding = Eigen::Vector3d::Constant(kRounding);
+  const Eigen::Vector3d far = Eigen::Vector3d::Constant(kFarthestRoom),
+                        rounding = Eigen::Vector3d::Constant(kDoorRounding);
   const Eigen::AlignedBox3d all_space(-far, far);
   std::vector<Eigen::AlignedBox3d> bounds;
   for (const Room& room : rooms) bounds.push_back(boundsOf(room, all_space));

@@ -9,6 +9,9 @@
 
 namespace hgrid {
 
+/// [m] A door is enlarged by this, because sums of decimal numbers are rounded.
+constexpr double kDoorRounding = 1e-6;
+
 /// Adds a door for each two rooms that overlap, because no wall separates them there: a margin that reaches through
 /// their common space must not end at it. The door is the box around this space. Rooms that overlap by at most 1 mm
 /// touch at a thin wall, so they get no door.

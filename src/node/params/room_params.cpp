@@ -10,6 +10,7 @@
 #include "hgrid_proximity/geometry/oriented_box.h"
 #include "hgrid_proximity/refusal.h"
 #include "node/params/obstacle_params.h"
+#include "node/params/room_overlaps.h"
 
 namespace hgrid {
 namespace {
@@ -17,7 +18,6 @@ namespace {
 constexpr std::size_t kMostRooms = 1000, kMostDoors = 4000, kMostWalls = 64;
 constexpr double kFarthestWall = 1e6;  // [m] largest offset of a wall and largest side of a room or door
 constexpr double kShortestNormal = 1e-6;
-constexpr double kDoorRounding = 1e-6;  // [m] a door is enlarged by this, because sums of decimal numbers are rounded
 
 /// Adds an error if a list is too long.
 void checkCount(const ParamValue& value, std::size_t count, std::size_t most, const char* what) {

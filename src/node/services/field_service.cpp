@@ -19,6 +19,7 @@ namespace hgrid {
 namespace {
 
 constexpr std::size_t kMostPoints = 1000000;
+constexpr double kWhole = 1e-6;  // a side counts as a multiple of the resolution if it lacks less than this share of it
 
 /// Returns the number of points along one side of the lattice. If `size` is a multiple of the resolution, the last
 /// point is at the end of the side.
@@ -33,7 +34,7 @@ std::uint32_t pointsAlong(const char* axis, double size, double resolution) {
                                    text(resolution) + " m; a lattice has at most " + std::to_string(kMostPoints) +
                                    " points. Increase the distance of the points (resolution) or reduce size");
   }
-  return static_cast<std::uint32_t>(std::floor(steps + 1e-6)) + 1;
+  return static_cast<std::uint32_t>(std::floor(steps + kWhole)) + 1;
 }
 
 Lattice latticeOf(const msg::DistanceField::Request& request) {

@@ -39,8 +39,9 @@ void checkRoot(const Pose& world_from_root) {
     throw Refusal(Code::nonfinite, "the pose of the robot's root link is not finite; every number must be finite");
   }
   checkQueryPoint(world_from_root.translation(), "the position of the robot's root link");
+  constexpr double kOrthonormal = 1e-6;
   const Eigen::Matrix3d turn = world_from_root.linear();
-  if ((turn.transpose() * turn).isIdentity(1e-6) && turn.determinant() > 0.0) return;
+  if ((turn.transpose() * turn).isIdentity(kOrthonormal) && turn.determinant() > 0.0) return;
   throw Refusal(Code::bad_rotation,
                 "the pose of the robot's root link has no rotation; its matrix must be orthonormal");
 }

@@ -12,7 +12,8 @@ namespace hgrid {
 void StateChecker::checkEdges(const StateBatch& batch, const std::vector<StateEdge>& edges, const EdgeRequest& request,
                               StateScratch& scratch, EdgeAnswers& answers) const {
   const DefaultFloatEnvironment environment;
-  if (!(request.tolerance >= 1e-6 && request.tolerance <= 1.0)) {
+  constexpr double kLeastTolerance = 1e-6;  // [m]
+  if (!(request.tolerance >= kLeastTolerance && request.tolerance <= 1.0)) {
     throw Refusal(Code::out_of_range,
                   "the tolerance of the edges is " + text(request.tolerance) + " m; it must be between 1e-6 and 1 m");
   }

@@ -7,13 +7,17 @@
 #include <limits>
 
 #include "geometry/rotation.h"
+#include "geometry/rounding.h"
 #include "queries/states/four_boxes.h"
 
 namespace hgrid {
 namespace {
 
-constexpr float kSlack = 1e-6f;     // [m] more than the errors of measured distances and of computed poses
-constexpr double kFirstPart = 0.1;  // [m] no point of the robot travels farther on the first part of an edge
+// [m] Least slack: shapes that are nearer than this are not told apart on an edge. It is the least tolerance of a
+// request, so it leaves nothing unknown that could be decided.
+constexpr double kLeastSlack = 1e-6;
+constexpr double kMoreThanHalf = 1.0 + 1e-6;  // makes up for the rounding of halves and of sums in floats
+constexpr double kFirstPart = 0.1;            // [m] no point of the robot travels farther on the first part of an edge
 constexpr double kProbe =
     0.1;  // [m] with EdgeRequest::any_contact, one configuration is tested per this length of path
 constexpr double kMostProbes = 64;   // upper limit of the number of tested configurations
@@ -21,8 +25,7 @@ constexpr float kCoarse = 0.02f;     // [m] shapes are not measured while they c
 constexpr std::size_t kFewNear = 8;  // if more shapes are near in the middle of a part, the next parts are shorter
 constexpr double kNowhere = 2.0;     // a place behind the end of an edge
 constexpr float kTooFar = -std::numeric_limits<float>::infinity();  // reach of shapes that cannot meet
-constexpr double kSameWay =
-    1e-6;  // [rad] if two ways around the circle differ by less than twice this, either may be taken
+constexpr double kSameWay = 1e-6;    // [rad] if two ways around the circle differ by less than twice this, both count
 constexpr double kShortest = 1e-12;  // parts of an edge that are this short are not divided
 
 /// Interpolates between two unit quaternions at constant speed, along the way on which `difference` leads.
@@ -32,7 +35,7 @@ Eigen::Vector4d turned(const Eigen::Vector4d& from, const Eigen::Vector4d& diffe
 }
 
 /// Adds the slack to a reach [m]. Shapes that do not move against each other have none: one state decides.
-float withSlack(float reach) { return reach > 0.0f ? reach + kSlack : 0.0f; }
+float withSlack(const EdgeInWork& work, float reach) { return reach > 0.0f ? reach + work.slack : 0.0f; }
 
 /// Returns the place on the edge of a configuration that is tested for contact. They are spread evenly: 1, 1/2, 1/4,
 /// 3/4, 1/8 and so on (the van der Corput sequence). @param number  1, 2 ...
@@ -62,6 +65,7 @@ EdgeSearch::EdgeSearch(const CheckerParts& all, const StateBatch& batch, const s
 
 void EdgeSearch::run() {
   const Pose world_from_root = all_.worldFromRoot(batch_);
+  root_rounding_ = gapRounding(world_from_root.translation().norm());
   answers_.edges.assign(edges_.size(), EdgeAnswer{});
   answers_.pairs.clear();
   for (std::size_t lane = 0; lane < 4; ++lane) {
@@ -124,7 +128,8 @@ bool EdgeSearch::begin(std::size_t lane) {
     work.near.reset();
     work.doubt.reset();
     work.parts.clear();
-    work.path = all_.motion.find(memory_.from, memory_.difference, lane, work.motion);
+    work.path = all_.motion.find(memory_.from, memory_.values, memory_.difference, lane, work.motion);
+    work.slack = roundedUp(std::max(kLeastSlack, root_rounding_ + work.motion.rounding));
     work.probes = request_.any_contact ? static_cast<std::uint32_t>(std::min(work.path / kProbe, kMostProbes)) : 0;
     work.step = work.path > kFirstPart ? kFirstPart / work.path : 1.0;
     return true;
@@ -224,11 +229,11 @@ void EdgeSearch::place(std::size_t lane) {
 void EdgeSearch::findReaches(std::size_t lane) {
   EdgeInWork& work = memory_.edges[lane];
   const MotionBounds::HalfPart half{memory_.groups.in_world, memory_.placed, all_.snapshot->origin(), lane,
-                                    0.5 * (work.part.tip - work.part.begin) * (1.0 + 1e-6)};
+                                    0.5 * (work.part.tip - work.part.begin) * kMoreThanHalf};
   if (work.searches_all) {
     for (std::size_t i = 0; i < memory_.shape_reach.size(); ++i) {
       all_.motion.findPart(i, half, work.motion);
-      memory_.shape_reach[i][lane] = withSlack(all_.motion.reachOf(i, work.motion));
+      memory_.shape_reach[i][lane] = withSlack(work, all_.motion.reachOf(i, work.motion));
     }
     return;
   }
@@ -237,9 +242,9 @@ void EdgeSearch::findReaches(std::size_t lane) {
     all_.motion.findPart(near.own, half, work.motion);
     if (near.with == With::self) {
       all_.motion.findPart(near.other, half, work.motion);
-      memory_.pair_reach[near.pair][lane] = withSlack(all_.motion.reachOfPair(near.pair, work.motion));
+      memory_.pair_reach[near.pair][lane] = withSlack(work, all_.motion.reachOfPair(near.pair, work.motion));
     } else {
-      memory_.shape_reach[near.own][lane] = withSlack(all_.motion.reachOf(near.own, work.motion));
+      memory_.shape_reach[near.own][lane] = withSlack(work, all_.motion.reachOf(near.own, work.motion));
     }
   }
 }
@@ -249,7 +254,7 @@ void EdgeSearch::findReaches(std::size_t lane) {
 /// @param lanes  the lanes in which all shapes are searched
 void EdgeSearch::findPairReaches(unsigned lanes) {
   if (lanes == 0) return;
-  const auto sum = [](const Four& a, const Four& b) { return (a + b) * (1.0f + 1e-6f); };
+  const auto sum = [](const Four& a, const Four& b) { return (a + b) * static_cast<float>(kMoreThanHalf); };
   const auto set = [lanes](Four& reach, unsigned near, const auto& reachIn) {
     for (std::size_t lane = 0; lane < 4; ++lane) {
       if ((lanes >> lane & 1u) != 0) reach[lane] = (near >> lane & 1u) != 0 ? reachIn(lane) : kTooFar;
@@ -269,8 +274,10 @@ void EdgeSearch::findPairReaches(unsigned lanes) {
       const SelfPair& pair = pairs[i];
       const Four most = sum(memory_.shape_reach[pair.first], memory_.shape_reach[pair.second]);
       const unsigned near = overlapping(memory_.placed[pair.first].bounds, memory_.placed[pair.second].bounds, most);
-      set(memory_.pair_reach[i], near,
-          [&](std::size_t lane) { return withSlack(all_.motion.reachOfPair(i, memory_.edges[lane].motion)); });
+      set(memory_.pair_reach[i], near, [&](std::size_t lane) {
+        const EdgeInWork& work = memory_.edges[lane];
+        return withSlack(work, all_.motion.reachOfPair(i, work.motion));
+      });
     }
   }
 }
@@ -300,7 +307,7 @@ void EdgeSearch::use(std::size_t lane) {
     std::optional<std::uint32_t> doubt;
     const bool matters = !doubt_ && work.uncertain_from == kNowhere;  // otherwise the edge cannot become clear
     if (matters && !all_.doubts.none() && (work.searches_all || work.part.in_doubt)) {
-      doubt = all_.doubts.findNear(search_.robotIn(lane), 0.5 * length * work.path + kSlack);
+      doubt = all_.doubts.findNear(search_.robotIn(lane), 0.5 * length * work.path + static_cast<double>(work.slack));
     }
     if (search_.kept(lane).empty() && !doubt) {
       work.begin = work.part.tip;

@@ -50,6 +50,7 @@ class EdgeSearch {
   StateValues values_;
   StateSearch search_;
   const std::optional<std::uint32_t> doubt_;  // a doubt that applies to all configurations
+  double root_rounding_ = 0.0;                // [m] bound of the rounding errors of the place of the root
   std::size_t next_ = 0;                      // index of the next edge that no lane has taken
 };
 

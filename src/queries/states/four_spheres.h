@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/four_lanes.h"
+#include "geometry/rounding.h"
 #include "hgrid_proximity/geometry/pose.h"
 #include "hgrid_proximity/geometry/sphere.h"
 #include "narrow/inner_spheres.h"
@@ -20,7 +21,8 @@ struct SmallSphere {
 
 /// Converts a sphere.
 inline SmallSphere smallSphere(const Eigen::Vector3d& center, double radius) {
-  const double rounding = 4e-7 * center.cwiseAbs().sum() + 2e-6 * radius;
+  constexpr double kOfRadius = 2e-6;  // for the sums of radii in floats
+  const double rounding = kFloatRounding * center.cwiseAbs().sum() + kOfRadius * radius;
   return {{static_cast<float>(center[0]), static_cast<float>(center[1]), static_cast<float>(center[2])},
           static_cast<float>(radius - rounding)};
 }

@@ -11,6 +11,9 @@ namespace hgrid {
 namespace {
 
 constexpr double kBoxRounding = 1.0 + 1e-5;  // the boxes of the shapes are in floats
+// Bound of the rounding errors that one joint adds to the place of a point, relative to the reach of the robot and to
+// the angle of the joint [rad] plus 1.
+constexpr double kJointRounding = 4e-15;
 
 /// Returns the distance of a point from an axis through the origin.
 double distanceFromAxis(const Eigen::Vector3d& point, const Eigen::Vector3d& axis) {
@@ -79,18 +82,20 @@ MotionBounds::MotionBounds(const Kinematics& kinematics, const RobotShapes& robo
   }
 }
 
-float MotionBounds::find(const std::vector<FourDoubles>& from, const std::vector<FourDoubles>& difference,
-                         std::size_t lane, Memory& memory) const {
+float MotionBounds::find(const std::vector<FourDoubles>& from, const std::vector<FourDoubles>& to,
+                         const std::vector<FourDoubles>& difference, std::size_t lane, Memory& memory) const {
   memory.joints.resize(groups_.size());
   memory.paths.resize(robot_.shapes().size() * depths_);
   memory.part_paths.resize(memory.paths.size());
   findTravels(from, difference, lane, memory.joints);
-  double largest = 0.0;
+  double largest = 0.0, reach = 0.0;
   for (std::size_t i = 0; i < robot_.shapes().size(); ++i) {
-    findPaths(i, memory.joints, &memory.paths[i * depths_]);
+    reach = std::max(reach, findPaths(i, memory.joints, &memory.paths[i * depths_]));
     if (i < robot_.counting()) largest = std::max(largest, memory.paths[i * depths_]);
   }
   for (std::size_t i = 0; i < robot_.selfPairs().size(); ++i) largest = std::max(largest, sumOf(i, memory.paths));
+  const double angle = std::max(largestAngle(from, lane), largestAngle(to, lane));
+  memory.rounding = kJointRounding * static_cast<double>(depths_) * reach * (1.0 + angle);
   return roundedUp(largest * kBoxRounding);
 }
 
@@ -144,6 +149,19 @@ double MotionBounds::sumOf(std::size_t pair, const std::vector<double>& paths) c
   return paths[shapes.first * depths_ + depth] + paths[shapes.second * depths_ + depth];
 }
 
+/// Returns the largest angle [rad] of a joint, or more.
+double MotionBounds::largestAngle(const std::vector<FourDoubles>& values, std::size_t lane) const {
+  double largest = 0.0;
+  for (const JointMotion& joint : kinematics_.state().groups) {
+    if (joint.kind == JointKind::revolute) {
+      largest = std::max(largest, std::abs(joint.multiplier * values[joint.variable][lane]) + std::abs(joint.offset));
+    } else if (joint.kind == JointKind::planar) {
+      largest = std::max(largest, std::abs(values[joint.variable + 2][lane]));
+    }
+  }
+  return largest;
+}
+
 void MotionBounds::findTravels(const std::vector<FourDoubles>& from, const std::vector<FourDoubles>& difference,
                                std::size_t lane, std::vector<JointTravel>& joints) const {
   const std::vector<JointMotion>& motions = kinematics_.state().groups;
@@ -184,14 +202,16 @@ void MotionBounds::findTravels(const std::vector<FourDoubles>& from, const std::
   }
 }
 
-/// Computes the path of a shape in the frame of each group above it. @param paths  by the depth of this group
-void MotionBounds::findPaths(std::size_t shape, const std::vector<JointTravel>& joints, double* paths) const {
+/// Computes the path of a shape in the frame of each group above it.
+/// @param paths  by the depth of this group
+/// @returns the largest distance of a point of the shape from the root on the edge [m]
+double MotionBounds::findPaths(std::size_t shape, const std::vector<JointTravel>& joints, double* paths) const {
   const std::vector<JointMotion>& motions = kinematics_.state().groups;
   std::uint32_t group = robot_.shapes()[shape].group;
   double from_origin = extents_[shape].from_origin, from_axis = extents_[shape].from_axis, path = 0.0;
   for (;; group = motions[group].parent) {
     paths[groups_[group].depth] = path;
-    if (group == 0) return;
+    if (group == 0) return from_origin;
     const JointTravel& joint = joints[group];
     path += joint.turn * (motions[group].kind == JointKind::floating ? from_origin : from_axis) + joint.slide;
     from_axis = groups_[group].from_axis + joint.most + from_origin;

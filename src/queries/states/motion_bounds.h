@@ -29,6 +29,7 @@ class MotionBounds {
     std::vector<JointTravel> joints;  // for each rigid group
     std::vector<double> paths;        // for each shape: its path on the edge, in the frame of each group above it
     std::vector<double> part_paths;   // the same for the parts that were computed last
+    double rounding = 0.0;            // [m] bound of the rounding errors of the place of a point, relative to the root
   };
   /// Half of a part of an edge: where the robot is in the middle of the part, and how far it is to both ends.
   struct HalfPart {
@@ -39,12 +40,12 @@ class MotionBounds {
     double length;  ///< as a part of the edge
   };
   /// Computes the bounds for an edge [m].
-  /// @param from         value of each variable at the beginning of the edge, in this lane
-  /// @param difference   how much each variable changes
+  /// @param from, to     value of each variable at both ends of the edge, in this lane
+  /// @param difference   how much each variable changes; a joint without limits may turn less than to - from
   /// @param memory       receives the bounds for the path of each shape
   /// @returns the largest bound, of a path in the world or of the change of a distance
-  float find(const std::vector<FourDoubles>& from, const std::vector<FourDoubles>& difference, std::size_t lane,
-             Memory& memory) const;
+  float find(const std::vector<FourDoubles>& from, const std::vector<FourDoubles>& to,
+             const std::vector<FourDoubles>& difference, std::size_t lane, Memory& memory) const;
   /// Computes how far a point of a shape can be from where it is in the middle of a part, in the frames of all groups
   /// above the shape. The bound is smaller than the same share of find(), because it uses how far the axes of the
   /// joints are in the middle. Why this suffices: let T be the motion of a joint and x the way of a point in the frame
@@ -70,8 +71,9 @@ class MotionBounds {
   };
   void findTravels(const std::vector<FourDoubles>& from, const std::vector<FourDoubles>& difference, std::size_t lane,
                    std::vector<JointTravel>& joints) const;
+  double largestAngle(const std::vector<FourDoubles>& values, std::size_t lane) const;
   double sumOf(std::size_t pair, const std::vector<double>& paths) const;
-  void findPaths(std::size_t shape, const std::vector<JointTravel>& joints, double* paths) const;
+  double findPaths(std::size_t shape, const std::vector<JointTravel>& joints, double* paths) const;
 
   const Kinematics kinematics_;
   const RobotShapes& robot_;

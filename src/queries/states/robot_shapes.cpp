@@ -14,6 +14,8 @@ namespace hgrid {
 namespace {
 
 constexpr float kUnit = 6e-8f;  // relative rounding error of one float operation
+// Bound of the rounding errors of a vector that is turned in floats, relative to its length.
+constexpr double kTurnRounding = 1e-6;
 // Limit of: volume of the box of a cluster / sum of the volumes of the boxes of its shapes.
 constexpr float kMaxVolumeRatio = 8.0f;
 
@@ -77,7 +79,7 @@ TiltedBox<float> tiltedBoxOf(const BodyShape& shape, const Pose& frame_from_shap
   for (Eigen::Index i = 0; i < 3; ++i) {
     for (Eigen::Index k = 0; k < 3; ++k) box.axes[i][k] = static_cast<float>(frame_from_shape.linear()(k, i));
     box.center[i] = static_cast<float>(center[i]);
-    box.half[i] = roundedUp(half[i] + rounding + 1e-6 * half.sum());
+    box.half[i] = roundedUp(half[i] + rounding + kTurnRounding * half.sum());
   }
   return box;
 }
@@ -233,7 +235,7 @@ void RobotShapes::addShapesOf(const Snapshot& snapshot, const QueryScope& scope,
     const std::vector<BodyShape>& shapes = snapshot.structure().bodies[own.body].shapes;
     for (std::uint32_t i = 0; i < shapes.size(); ++i) {
       const Pose group_from_shape = own.group_from_body * shapes[i].body_from_shape;
-      const TiltedBox<float> box = tiltedBoxOf(shapes[i], group_from_shape, 1e-6);
+      const TiltedBox<float> box = tiltedBoxOf(shapes[i], group_from_shape, kTurnRounding);
       makeHulls(shapes[i]);
       const bool is_straight = group_from_shape.linear() == Eigen::Matrix3d::Identity();
       shapes_.push_back({own.body, i, own.group, group_from_shape, &shapes[i], box, is_straight, coverOf(box),

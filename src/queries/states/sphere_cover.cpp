@@ -10,8 +10,11 @@
 namespace hgrid {
 namespace {
 
-constexpr double kMostAlong = 8.0;     // spheres along the longest axis
-constexpr double kMostSpheres = 12.0;  // spheres in all, roughly
+constexpr double kMostAlong = 8.0;      // spheres along the longest axis
+constexpr double kMostSpheres = 12.0;   // spheres in all, roughly
+constexpr double kLeastSpacing = 1e-6;  // [m] of spheres, for a box without size
+constexpr double kNoRow = 1e-3;         // a rest of a row that is shorter than this share of a sphere gets no sphere
+constexpr double kCoverGrown = 1.0 + 1e-6;  // makes up for the rounding of the radius
 
 }  // namespace
 
@@ -22,15 +25,16 @@ SphereCover coverOf(const TiltedBox<float>& box) {
   SphereCover cover{{order[0], order[1]}, {1, 1}, {0.0f, 0.0f}, box.half[order[0]], box.half[order[0]]};
   if (box.is_ball) return cover;
   cover.whole = roundedUp(std::sqrt(longest * longest + middle * middle + shortest * shortest));
-  const double spacing = std::max({shortest, longest / kMostAlong, std::sqrt(longest * middle / kMostSpheres), 1e-6});
+  const double spacing =
+      std::max({shortest, longest / kMostAlong, std::sqrt(longest * middle / kMostSpheres), kLeastSpacing});
   double half[2] = {longest, middle};
   for (int i = 0; i < 2; ++i) {
-    cover.count[i] = static_cast<std::uint32_t>(std::ceil(half[i] / spacing - 1e-3));
+    cover.count[i] = static_cast<std::uint32_t>(std::ceil(half[i] / spacing - kNoRow));
     cover.count[i] = std::max(cover.count[i], 1u);
     half[i] /= cover.count[i];
     cover.step[i] = static_cast<float>(2.0 * half[i]);
   }
-  cover.radius = roundedUp(std::sqrt(half[0] * half[0] + half[1] * half[1] + shortest * shortest) * (1.0 + 1e-6));
+  cover.radius = roundedUp(std::sqrt(half[0] * half[0] + half[1] * half[1] + shortest * shortest) * kCoverGrown);
   return cover;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "geometry/rounding.h"
 #include "maps/map_gap.h"
 #include "narrow/measured_contact.h"
 #include "queries/states/four_boxes.h"
@@ -13,7 +14,8 @@
 namespace hgrid {
 namespace {
 
-constexpr float kLikely = -0.01f;  // [m] shapes whose boxes overlap by more than this are measured early
+constexpr float kLikely = -0.01f;          // [m] shapes whose boxes overlap by more than this are measured early
+constexpr double kCubeGrown = 1.0 + 3e-6;  // makes up for the rounding of the axes of a cube in floats
 
 /// Returns whether two boxes may be at most `reach` [m] apart.
 bool mayReach(const Separation<float>& apart, float reach) {
@@ -438,7 +440,7 @@ void StateSearch::take(std::size_t lane, const NearShapes& near, const StatePair
 void StateSearch::measureMap(std::size_t lane, const NearShapes& near, double limit) {
   const PlacedMap& map = world_.maps()[near.other];
   const Eigen::AlignedBox3d box = boxInMap(map.map_from_world, robotIn(lane).boundsOf(near.own), snapshot_.origin());
-  if (grown(map.cells.grid->bounds(), limit + 1e-6).intersection(box).isEmpty()) return;
+  if (grown(map.cells.grid->bounds(), limit + gapRounding(limit)).intersection(box).isEmpty()) return;
   struct Visit {
     NearShapes near;
     double limit;
@@ -461,7 +463,7 @@ void StateSearch::measureMap(std::size_t lane, const NearShapes& near, double li
     const Pose world_from_cube = context.map.worldFromCube(voxel);
     const Eigen::Vector3d center = world_from_cube.translation() - search.snapshot_.origin();
     const double half = 0.5 * context.map.edgeOf(voxel);
-    const float half_side = roundedUp(half * (1.0 + 3e-6) + 4e-7 * center.norm());
+    const float half_side = roundedUp(half * kCubeGrown + kFloatRounding * center.norm());
     for (Eigen::Index k = 0; k < 3; ++k) {
       at.cell.center[k] = static_cast<float>(center[k]);
       at.cell.half[k] = half_side;

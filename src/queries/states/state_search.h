@@ -53,6 +53,7 @@ struct EdgeInWork {
   std::size_t edge = 0;  // index of the edge
   bool active = false;
   double path = 0.0;                   // [m] bound of the path of any point of the robot on the whole edge
+  float slack = 0.0f;                  // [m] bound of the rounding errors of the distance of two shapes
   double begin = 0.0;                  // everything before it has been examined
   double end = 1.0;                    // where the first known contact is; 1: none is known
   double step = 1.0;                   // length of the next part that is searched for everything

@@ -10,6 +10,9 @@
 
 namespace hgrid {
 
+/// Bound of the rounding errors of a distance of two boxes or balls, relative to all lengths from which it is computed.
+inline constexpr float kTiltedRounding = 2e-6f;
+
 // The functions below exist for one number and for a vector of four numbers.
 inline float least(float a, float b) { return a < b ? a : b; }
 inline float greatest(float a, float b) { return a > b ? a : b; }
@@ -51,7 +54,8 @@ Number reachAlong(const TiltedBox<Number>& box, std::size_t k) {
 template <class Number>
 Number gapOfBalls(const TiltedBox<Number>& a, const TiltedBox<Number>& b) {
   const Number x = b.center[0] - a.center[0], y = b.center[1] - a.center[1], z = b.center[2] - a.center[2];
-  return squareRoot(x * x + y * y + z * z) * (1.0f - 2e-6f) - (a.half[0] + b.half[0]) * (1.0f + 2e-6f);
+  return squareRoot(x * x + y * y + z * z) * (1.0f - kTiltedRounding) -
+         (a.half[0] + b.half[0]) * (1.0f + kTiltedRounding);
 }
 
 /// Returns a lower bound of the distance [m] of a ball and a box. Negative: minus a bound of their overlap.
@@ -66,7 +70,7 @@ Number gapOfBallAndBox(const TiltedBox<Number>& ball, const TiltedBox<Number>& b
   const Number inside = least(greatest(greatest(beyond[0], beyond[1]), beyond[2]), Number{});
   const Number size =
       absolute(way[0]) + absolute(way[1]) + absolute(way[2]) + box.half[0] + box.half[1] + box.half[2] + ball.half[0];
-  return squareRoot(dotOf(outside, outside)) + inside - ball.half[0] - size * 2e-6f;
+  return squareRoot(dotOf(outside, outside)) + inside - ball.half[0] - size * kTiltedRounding;
 }
 
 /// Separates two boxes by the 15 axes of the separating axis test (Ericson 2005, section 4.4.1). Rounding only makes
@@ -89,7 +93,7 @@ Separation<Number> separationOf(const TiltedBox<Number>& a, const TiltedBox<Numb
   }
   const Number size = absolute(way[0]) + absolute(way[1]) + absolute(way[2]) + a.half[0] + a.half[1] + a.half[2] +
                       b.half[0] + b.half[1] + b.half[2];
-  const Number rounding = size * 2e-6f;
+  const Number rounding = size * kTiltedRounding;
   Separation<Number> result{absolute(along[0]) - a.half[0] - dotOf(share[0], b.half), size * -1.0f};
   for (int i = 0; i < 3; ++i) {
     const Number gap_of_a = absolute(along[i]) - a.half[i] - dotOf(share[i], b.half);

@@ -4,6 +4,8 @@
 
 #include <numeric>
 
+#include "geometry/rounding.h"
+
 namespace hgrid {
 
 WorldShapes::WorldShapes(const Snapshot& snapshot, const RobotShapes& robot, const QueryScope& scope) {
@@ -19,8 +21,8 @@ WorldShapes::WorldShapes(const Snapshot& snapshot, const RobotShapes& robot, con
       Pose local_from_shape = pose.world_from_body * shapes[i].body_from_shape;
       local_from_shape.translation() -= snapshot.origin();
       addSpheres(shapes[i], local_from_shape);
-      shapes_.push_back(
-          {body, i, tiltedBoxOf(shapes[i], local_from_shape, 4e-7), static_cast<std::uint32_t>(spheres_.size())});
+      shapes_.push_back({body, i, tiltedBoxOf(shapes[i], local_from_shape, kFloatRounding),
+                         static_cast<std::uint32_t>(spheres_.size())});
       bounds_.push_back(snapshot.boxes()[proxy]);
     }
   }

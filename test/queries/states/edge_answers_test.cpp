@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "geometry/rotation.h"
 #include "test/queries/states/turning_arm.h"
 
 namespace hgrid {
@@ -53,6 +54,26 @@ TEST(EdgeAnswers, AnEdgeThatEndsBeforeTheBallIsClear) {
   EXPECT_EQ(answer.free_until, 1.0);
   EXPECT_EQ(answer.pairs, 0u);
   EXPECT_TRUE(std::isnan(answer.at));
+}
+
+/// Claim: the place of a long arm after millions of turns is rounded by more than a micrometer. An edge to a contact is
+/// not clear there either.
+TEST(EdgeAnswers, AnEdgeToAContactIsNotClearAfterMillionsOfTurns) {
+  const double reach = 1e4;  // [m]
+  RobotModel model = turningArm();
+  model.links[1].continuous = true;
+  model.links[1].shapes = {solidShape(Shape::sphere(0.1), at(reach))};
+  Random random(1);
+  for (int i = 0; i < 60; ++i) {
+    const double to = random.uniform(8e7, 1e8), before = to - random.uniform(0.5, 1.5);
+    const double from = i % 2 == 0 ? before : std::remainder(before, 2.0 * M_PI);  // nearly the same place
+    const Eigen::Vector3d side(cosine(to), sine(to), 0.0), ahead(-side.y(), side.x(), 0.0);
+    const Eigen::Vector3d ball = reach * side + (0.2 - std::pow(10.0, random.uniform(-7.0, -5.0))) * ahead;
+    ArmWorld world({}, model);
+    put(world.scene, ArmWorld::ballBody("ball"), Pose(Eigen::Translation3d(ball)));
+    EXPECT_EQ(world.verdictAt(to), Verdict::hit);
+    EXPECT_NE(world.checkEdge(from, to).verdict, Verdict::clear) << "edge " << i;
+  }
 }
 
 TEST(EdgeAnswers, AnEdgeWithoutMotionIsTheStateItself) {

@@ -65,12 +65,13 @@ class Corners {
 struct Bounded {
   Bounded(const StateWorld& world, const RobotShapes& shapes, const EdgeOracle& tested)
       : kinematics(world.kinematics()), robot(shapes), bounds(kinematics, robot), edge(tested) {
-    std::vector<FourDoubles> from, difference;
+    std::vector<FourDoubles> from, to, difference;
     for (std::size_t k = 0; k < kinematics.variables().size(); ++k) {
       from.push_back(fourDoubles(edge.at(0)[k]));
+      to.push_back(fourDoubles(edge.at(1)[k]));
       difference.push_back(fourDoubles(edge.at(1)[k] - edge.at(0)[k]));
     }
-    largest = double{bounds.find(from, difference, 2, memory)};
+    largest = double{bounds.find(from, to, difference, 2, memory)};
   }
   /// Computes the bounds for a part. The origin of the boxes is somewhere.
   void findPart(double middle, double half) {
@@ -81,7 +82,8 @@ struct Bounded {
     const Eigen::Vector3d origin(0.3, -2.0, 1.0);
     forwardKinematics(kinematics, values, Pose::Identity(), nullptr, groups);
     robot.place(groups.in_world, nullptr, origin, placed);
-    for (std::size_t i = 0; i < placed.size(); ++i) bounds.findPart(i, {groups.in_world, placed, origin, 1, half}, memory);
+    for (std::size_t i = 0; i < placed.size(); ++i)
+      bounds.findPart(i, {groups.in_world, placed, origin, 1, half}, memory);
   }
 
   const Kinematics kinematics;
