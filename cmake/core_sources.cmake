@@ -1,4 +1,5 @@
-# The sources of the core, for core/CMakeLists.txt, those of the adapters, and those of proximity_mesh_reader.
+# The sources of the core and of the partitions, for core/CMakeLists.txt, those of the adapters, and those of
+# proximity_mesh_reader.
 set(HGRID_CORE_SOURCES
   src/bodies/forward_kinematics.cpp
   src/bodies/group_tree.cpp
@@ -13,27 +14,6 @@ set(HGRID_CORE_SOURCES
   src/bodies/robot_model.cpp
   src/bodies/self_pairs.cpp
   src/bodies/source.cpp
-  src/broadphase/book/array_grid.cpp
-  src/broadphase/book/bit_grid.cpp
-  src/broadphase/book/bucket_grid.cpp
-  src/broadphase/book/cell_scale.cpp
-  src/broadphase/book/hashed_grid.cpp
-  src/broadphase/book/hashed_hgrid.cpp
-  src/broadphase/book/kd_nodes.cpp
-  src/broadphase/book/kd_tree.cpp
-  src/broadphase/book/loose_octree.cpp
-  src/broadphase/book/mirtich_grid.cpp
-  src/broadphase/book/partition.cpp
-  src/broadphase/book/partition_changes.cpp
-  src/broadphase/book/partition_searches.cpp
-  src/broadphase/book/query_shape.cpp
-  src/broadphase/book/room_edges.cpp
-  src/broadphase/book/rooms.cpp
-  src/broadphase/book/sweep_array.cpp
-  src/broadphase/book/sweep_lists.cpp
-  src/broadphase/book/tree_grid.cpp
-  src/broadphase/book/uniform_grid.cpp
-  src/broadphase/broad_phase_type.cpp
   src/broadphase/hgrid/bounds_tree.cpp
   src/broadphase/hgrid/box_sample.cpp
   src/broadphase/hgrid/box_statistics.cpp
@@ -55,7 +35,8 @@ set(HGRID_CORE_SOURCES
   src/broadphase/hgrid/search_tasks.cpp
   src/broadphase/hgrid/shape_levels.cpp
   src/broadphase/isa.cpp
-  src/broadphase/partitions.cpp
+  src/broadphase/room_edges.cpp
+  src/broadphase/rooms.cpp
   src/broadphase/workers.cpp
   src/distances/map_meter.cpp
   src/distances/pair_distance.cpp
@@ -154,6 +135,28 @@ set(HGRID_CORE_SOURCES
   src/world/snapshot.cpp
   src/world/structure.cpp
 )
+set(HGRID_PARTITION_SOURCES
+  src/partitions/array_grid.cpp
+  src/partitions/bit_grid.cpp
+  src/partitions/broad_phase_type.cpp
+  src/partitions/bucket_grid.cpp
+  src/partitions/cell_scale.cpp
+  src/partitions/hashed_grid.cpp
+  src/partitions/hashed_hgrid.cpp
+  src/partitions/kd_nodes.cpp
+  src/partitions/kd_tree.cpp
+  src/partitions/loose_octree.cpp
+  src/partitions/mirtich_grid.cpp
+  src/partitions/partition.cpp
+  src/partitions/partition_changes.cpp
+  src/partitions/partition_searches.cpp
+  src/partitions/partitions.cpp
+  src/partitions/query_shape.cpp
+  src/partitions/sweep_array.cpp
+  src/partitions/sweep_lists.cpp
+  src/partitions/tree_grid.cpp
+  src/partitions/uniform_grid.cpp
+)
 set(HGRID_ADAPTER_SOURCES
   src/adapters/mesh/mesh.cpp
   src/adapters/mesh/resource.cpp
@@ -188,13 +191,8 @@ endif()
 #catkin_lint: ignore_once global_var_collision
 set(HGRID_UNITY 36 CACHE STRING "Number of files of the core that are compiled as one; 1 finds a missing #include")
 
-# hgrid_core_options(target root): sets the options for a target that is built from the core's sources. Kernels are
-# optimized in every build type. All sources need -ffp-contract=off, so that a formula is rounded in the same way on all
-# machines.
-function(hgrid_core_options target root)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${HGRID_UNITY})
-  target_include_directories(${target} PRIVATE "${root}/src")
-  target_compile_options(${target} PRIVATE -ffp-contract=off)
+# hgrid_add_kernels(target root): adds the inner loops to the core. They are optimized in every build type.
+function(hgrid_add_kernels target root)
   set(isas portable)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
     target_compile_definitions(${target} PRIVATE HGRID_X86_KERNELS)
