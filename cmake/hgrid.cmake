@@ -25,9 +25,9 @@ macro(hgrid_compiler_options)
   endif()
 endmacro()
 
-# hgrid_files(variable pattern... [EXCLUDE regex]): sets the variable to the files that match, sorted, without those whose
-# name begins with `regex`. The build runs cmake again when another file matches. Each pattern must match a file, so that
-# no test is lost by a typing error. Relative patterns begin at the current source folder.
+# hgrid_files(variable pattern... [EXCLUDE regex]): sets the variable to the files that match, sorted, without those
+# whose name begins with `regex`. The build runs cmake again when another file matches. Each pattern must match a
+# file, so that no test is lost by a typing error. Relative patterns begin at the current source folder.
 function(hgrid_files variable)
   cmake_parse_arguments(files "" "EXCLUDE" "" ${ARGN})
   set(all "")
@@ -46,12 +46,14 @@ function(hgrid_files variable)
   set(${variable} ${all} PARENT_SCOPE)
 endfunction()
 
-# hgrid_find(prefix file...): finds foreign headers and libraries. Sets prefix_INCLUDE_DIRS and prefix_LIBRARIES; for each
-# file, HGRID_<NAME>_INCLUDE_DIR or HGRID_<NAME>_LIBRARY; and prefix_MISSING, the names of those that were not found.
-# Searches by file name, because some CMake config files are unusable. On Ubuntu 20.04, tinyxml2 has none. The config file
-# of urdfdom caches a result that differs between the first and the second run of cmake.
+# hgrid_find(prefix file...): finds foreign headers and libraries. Sets prefix_INCLUDE_DIRS, prefix_LIBRARIES, for each
+# file HGRID_<NAME>_INCLUDE_DIR or HGRID_<NAME>_LIBRARY, and prefix_MISSING, the names of those that were not found.
+# Searches by file name, because some CMake config files are unusable: on Ubuntu 20.04, tinyxml2 has none, and that of
+# urdfdom caches a result that differs between the first and the second run of cmake.
 function(hgrid_find prefix)
   set(dirs "")
+  set(libraries "")
+  set(missing "")
   foreach(file ${ARGN})
     string(REGEX REPLACE "[^A-Za-z0-9_].*" "" name "${file}")
     string(TOUPPER "HGRID_${name}" name)
@@ -82,11 +84,10 @@ set(HGRID_OCTOMAP_NEEDS octomap/octomap.h octomap octomath)
 set(HGRID_FCL_NEEDS fcl/narrowphase/distance.h fcl ccd ${HGRID_OCTOMAP_NEEDS})  # FCL 0.5 has no such header
 
 # hgrid_add_library(name SOURCES file... NEEDS target... [LINK library...] [CMAKE package...] [PKG_CONFIG package...]):
-# adds the library hgrid_proximity_<name>, and installs it with a CMake package and a pkg-config file. Projects without
-# catkin can then use it, wherever the installed folder is moved to: find_package(hgrid_proximity_<name>) has the target
-# hgrid_proximity::<name>, and pkg-config knows hgrid_proximity_<name>. NEEDS: targets that users of the library link,
-# too. CMAKE and PKG_CONFIG: the packages of these targets. LINK: foreign libraries; with a static library, its users link
-# them.
+# adds the library hgrid_proximity_<name>. Projects without catkin can use what is installed, wherever the folder is
+# moved to: by find_package(hgrid_proximity_<name>), which has the target hgrid_proximity::<name>, or by pkg-config.
+# NEEDS: targets that users link, too; CMAKE, PKG_CONFIG: their packages. LINK: foreign libraries; with a static library,
+# users link them.
 function(hgrid_add_library name)
   cmake_parse_arguments(library "" "" "SOURCES;NEEDS;LINK;CMAKE;PKG_CONFIG" ${ARGN})
   # A unity build compiles several files as one, because the compiler needs most of its time for the templates of Eigen.
@@ -102,7 +103,6 @@ function(hgrid_add_library name)
   target_include_directories(${package} PRIVATE "${HGRID_ROOT}/src"
     PUBLIC $<BUILD_INTERFACE:${HGRID_ROOT}/include> $<INSTALL_INTERFACE:include>)
   target_link_libraries(${package} PUBLIC ${library_NEEDS} PRIVATE ${library_LINK})
-
   if(CATKIN_GLOBAL_LIB_DESTINATION)
     set(lib ${CATKIN_GLOBAL_LIB_DESTINATION})
   else()
@@ -119,33 +119,27 @@ function(hgrid_add_library name)
     ARCHIVE DESTINATION ${lib} LIBRARY DESTINATION ${lib} RUNTIME DESTINATION bin)
   install(EXPORT ${package}-targets NAMESPACE hgrid_proximity:: DESTINATION ${lib}/cmake/${package})
   install(FILES "${config}.cmake" "${config}-version.cmake" DESTINATION ${lib}/cmake/${package})
-
   file(RELATIVE_PATH to_prefix "/${lib}/pkgconfig" /)  # the pkg-config file finds the prefix from its own place
   string(REGEX REPLACE "/$" "" to_prefix "${to_prefix}")
   string(REPLACE ";" " " requires "${library_PKG_CONFIG}")
-  string(REPLACE ";" " " private_links "${library_LINK}")
+  string(REPLACE ";" " " links "${library_LINK}")
+  set(private_links "")
   get_target_property(type ${package} TYPE)
-  if(type STREQUAL STATIC_LIBRARY)
-    set(links "${private_links}")
-    set(private_links "")
+  if(NOT type STREQUAL STATIC_LIBRARY)
+    set(private_links "${links}")
+    set(links "")
   endif()
   configure_file("${HGRID_ROOT}/cmake/library.pc.in" "${package}.pc" @ONLY)
   install(FILES "${CMAKE_CURRENT_BINARY_DIR}/${package}.pc" DESTINATION ${lib}/pkgconfig)
 endfunction()
 
-# hgrid_install_python(program...): replaces the files that catkin_install_python() installs by copies whose first line
-# names the interpreter that the build was configured with, as those in the devel space do. Catkin's begin with
-# "/usr/bin/env python3". That is the wrong Python if conda or pyenv is first in PATH: it does not find the modules of ROS.
+# hgrid_install_python(program...): lets what catkin_install_python() installs begin with the interpreter that the build
+# was configured with, as in the devel space, not with "/usr/bin/env python3". If conda or pyenv is first in PATH, that is
+# the wrong Python: it does not find the modules of ROS.
 function(hgrid_install_python)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARGN})
   foreach(program ${ARGN})
     get_filename_component(name ${program} NAME)
-    set(copy "${CMAKE_CURRENT_BINARY_DIR}/python_programs/${name}")
-    file(READ ${program} text)
-    string(REGEX REPLACE "^#![^\n]*" "#!${PYTHON_EXECUTABLE}" text "${text}")
-    file(WRITE "${copy}" "${text}")
-    # Removes the file of catkin first: cmake keeps a file that is as old as the one that would replace it.
-    install(CODE "file(REMOVE \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION}/${name}\")")
-    install(PROGRAMS "${copy}" DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+    set(installed "\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION}/${name}")
+    install(CODE "execute_process(COMMAND sed -i \"1s|.*|#!${PYTHON_EXECUTABLE}|\" \"${installed}\")")
   endforeach()
 endfunction()
