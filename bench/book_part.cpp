@@ -6,9 +6,9 @@
 #include "bench/parts.h"
 #include "bench/peers/book_peers.h"
 #include "bench/workload/workloads.h"
-#include "broadphase/book/cell_scale.h"
-#include "broadphase/book/pair_bits.h"
-#include "broadphase/book/stamps.h"
+#include "partitions/cell_scale.h"
+#include "partitions/pair_bits.h"
+#include "partitions/stamps.h"
 
 namespace hgrid {
 namespace bench {

@@ -55,7 +55,8 @@ TEST(CoreIncludes, TheCheckKnowsForeignFromOwn) {
   for (const char* foreign :
        {"ros/ros.h", "tf2/buffer_core.h", "urdf/model.h", "urdf_model/model.h", "fcl/fcl.h", "octomap/octomap.h",
         "tinyxml.h", "tinyxml2.h", "std_msgs/Header.h", "hgrid_proximity/Pairs.h", "hgrid_proximity/adapters/urdf.h",
-        "adapters/urdf/xml.h", "node/world/world.h", "geometry_msgs/Pose.h"}) {
+        "adapters/urdf/xml.h", "node/world/world.h", "geometry_msgs/Pose.h", "partitions/partition.h",
+        "hgrid_proximity/partitions/partitions.h"}) {
     EXPECT_TRUE(isForeign(foreign, folder)) << foreign;
   }
   for (const char* own : {"vector", "cstdint", "Eigen/Core", "immintrin.h", "hgrid_proximity/refusal.h", "../utf8.h",
@@ -150,6 +151,31 @@ TEST(NodeIncludes, AFolderIncludesOnlyFoldersBeforeIt) {
     }
   }
   EXPECT_GT(checked, 800u);
+}
+
+/// Claim: the partitions include only each other and headers of the core's folders broadphase and geometry.
+TEST(CoreIncludes, PartitionsIncludeOnlyBroadPhasesAndGeometry) {
+  const std::vector<std::string> allowed = {"partitions/",
+                                            "hgrid_proximity/partitions/",
+                                            "hgrid_proximity/broadphase/",
+                                            "hgrid_proximity/geometry/",
+                                            "geometry/",
+                                            "Eigen/"};
+  std::size_t checked = 0;
+  for (const char* folder : {"include/hgrid_proximity/partitions", "src/partitions"}) {
+    for (const auto& entry : fs::directory_iterator(kRoot / folder)) {
+      std::ifstream file(entry.path());
+      for (std::string line; std::getline(file, line);) {
+        const std::string header = includedIn(line);
+        if (header.find_first_of("/.") == std::string::npos) continue;  // of the standard library
+        ++checked;
+        EXPECT_TRUE(std::any_of(allowed.begin(), allowed.end(),
+                                [&](const std::string& start) { return header.compare(0, start.size(), start) == 0; }))
+            << entry.path() << " includes " << header;
+      }
+    }
+  }
+  EXPECT_GT(checked, 50u);
 }
 
 /// Claim: code that is compiled for one instruction set includes no templates of the standard library or Eigen. The

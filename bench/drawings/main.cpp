@@ -9,9 +9,9 @@
 #include <set>
 
 #include "bench/workload/random.h"
-#include "broadphase/book/partition.h"
-#include "hgrid_proximity/broadphase/partitions.h"
 #include "hgrid_proximity/broadphase/rooms.h"
+#include "hgrid_proximity/partitions/partitions.h"
+#include "partitions/partition.h"
 
 namespace hgrid {
 namespace {

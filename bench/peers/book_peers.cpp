@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "hgrid_proximity/broadphase/hgrid.h"
-#include "hgrid_proximity/broadphase/partitions.h"
+#include "hgrid_proximity/partitions/partitions.h"
 
 namespace hgrid {
 namespace bench {

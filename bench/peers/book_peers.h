@@ -6,7 +6,7 @@
 
 #include "bench/peers/peer.h"
 #include "bench/queries/query_peer.h"
-#include "hgrid_proximity/broadphase/broad_phase_type.h"
+#include "hgrid_proximity/partitions/broad_phase_type.h"
 
 namespace hgrid {
 namespace bench {

@@ -4,7 +4,7 @@
 
 #include "bench/singles/single_peer.h"
 #include "hgrid_proximity/broadphase/hgrid.h"
-#include "hgrid_proximity/broadphase/partitions.h"
+#include "hgrid_proximity/partitions/partitions.h"
 
 namespace hgrid {
 namespace bench {

@@ -3,8 +3,8 @@
 //
 // The part of Scene::commit() that grows the boxes by their margins and stores them in the broad phase.
 #include <algorithm>
+#include <stdexcept>
 
-#include "hgrid_proximity/broadphase/partitions.h"
 #include "world/scene_state.h"
 
 namespace hgrid {
@@ -14,6 +14,20 @@ namespace {
 bool isReported(const void* structure, ProxyId first, ProxyId second) {
   const Structure& s = *static_cast<const Structure*>(structure);
   return !s.filter.allowed(s.body_of_proxy[first], s.body_of_proxy[second]);
+}
+
+/// Makes a broad phase without boxes, of the kind that the options ask for.
+std::unique_ptr<BroadPhase> emptyBroadPhase(const SceneOptions& options, double finest_edge) {
+  if (options.broad_phase) {
+    std::unique_ptr<BroadPhase> made = options.broad_phase(finest_edge, options.threads);
+    if (!made) throw std::invalid_argument("SceneOptions::broad_phase returned null; it must return a broad phase");
+    return made;
+  }
+  GridScale scale;
+  scale.finest_edge = finest_edge;
+  auto grid = std::make_unique<HGrid>(scale);
+  grid->setThreads(options.threads);
+  return grid;
 }
 
 }  // namespace
@@ -98,7 +112,7 @@ bool Scene::State::moveInGrid(BroadPhase& grid) {
 /// Stores the grown boxes in the grid. Finds the overlapping pairs that the filter keeps, up to the limit.
 void Scene::State::fillGrid(PooledSnapshot& pooled) {
   if (pooled.grid_revision != structure->revision) {
-    pooled.setBroadPhase(makeBroadPhase({options.broad_phase, structure->scale.finest_edge, options.threads}));
+    pooled.setBroadPhase(emptyBroadPhase(options, structure->scale.finest_edge));
     BroadPhase& grid = *pooled.broad_phase;
     grid.setFixed(structure->fixed_proxies);
     grid.setOverlapFilter(OverlapFilter::of<isReported>(

@@ -14,17 +14,17 @@
 #include "test/support/brute_force.h"
 #include "test/support/grids.h"
 #ifdef HGRID_TEST_PARTITIONS
-#include "src/broadphase/book/array_grid.h"
-#include "src/broadphase/book/bit_grid.h"
-#include "src/broadphase/book/bucket_grid.h"
-#include "src/broadphase/book/hashed_grid.h"
-#include "src/broadphase/book/hashed_hgrid.h"
-#include "src/broadphase/book/kd_tree.h"
-#include "src/broadphase/book/loose_octree.h"
-#include "src/broadphase/book/mirtich_grid.h"
-#include "src/broadphase/book/sweep_array.h"
-#include "src/broadphase/book/sweep_lists.h"
-#include "src/broadphase/book/tree_grid.h"
+#include "src/partitions/array_grid.h"
+#include "src/partitions/bit_grid.h"
+#include "src/partitions/bucket_grid.h"
+#include "src/partitions/hashed_grid.h"
+#include "src/partitions/hashed_hgrid.h"
+#include "src/partitions/kd_tree.h"
+#include "src/partitions/loose_octree.h"
+#include "src/partitions/mirtich_grid.h"
+#include "src/partitions/sweep_array.h"
+#include "src/partitions/sweep_lists.h"
+#include "src/partitions/tree_grid.h"
 #endif
 
 namespace hgrid {

@@ -2,6 +2,16 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "hgrid_proximity/broadphase/hgrid.h"
+#include "hgrid_proximity/partitions/partitions.h"
 #include "test/support/scenes.h"
 #include "test/support/worlds.h"
 
@@ -38,10 +48,10 @@ Said saidBy(const Snapshot& snapshot) {
   return said;
 }
 
-/// Makes ticks in which bodies move, come and go, with a broad phase of this type.
-std::vector<Said> ticksWith(BroadPhaseType type, unsigned seed, std::size_t max_pairs) {
+/// Makes ticks in which bodies move, come and go, with a broad phase of this type; without a type, with the usual one.
+std::vector<Said> ticksWith(std::optional<BroadPhaseType> type, unsigned seed, std::size_t max_pairs) {
   SceneOptions options;
-  options.broad_phase = type;
+  if (type) options.broad_phase = [type](double edge, int threads) { return makeBroadPhase({*type, edge, threads}); };
   options.max_pairs = max_pairs;
   Scene scene(options);
   Random random(seed);
@@ -70,7 +80,7 @@ std::vector<Said> ticksWith(BroadPhaseType type, unsigned seed, std::size_t max_
 /// Claim: the type of the broad phase changes neither pairs nor events nor answers, also if the pairs are cut.
 TEST(SceneBroadPhase, AllTypesSayTheSame) {
   for (const std::size_t max_pairs : {std::size_t{100000}, std::size_t{20}}) {
-    const std::vector<Said> expected = ticksWith(BroadPhaseType::hgrid, 3, max_pairs);
+    const std::vector<Said> expected = ticksWith({}, 3, max_pairs);
     EXPECT_GT(expected.back().pairs.size(), 15u);
     EXPECT_EQ(expected.back().truncated, max_pairs == 20);
     EXPECT_FALSE(expected.back().in_sphere.empty());
@@ -81,6 +91,28 @@ TEST(SceneBroadPhase, AllTypesSayTheSame) {
       for (std::size_t tick = 0; tick < said.size(); ++tick) ASSERT_TRUE(said[tick] == expected[tick]) << tick;
     }
   }
+}
+
+TEST(SceneBroadPhase, IsMadeForTheEdgeAndTheThreadsOfTheScene) {
+  SceneOptions options;
+  options.finest_edge = 0.5;
+  options.threads = 2;
+  std::vector<std::pair<double, int>> asked;
+  options.broad_phase = [&](double edge, int threads) {
+    asked.emplace_back(edge, threads);
+    return std::make_unique<HGrid>();
+  };
+  Scene scene(options);
+  const auto snapshot = scene.commit(Time{1}, {});
+  EXPECT_EQ(asked, (std::vector<std::pair<double, int>>{{0.5, 2}}));
+  EXPECT_EQ(snapshot->broadPhase().size(), 0u);
+}
+
+TEST(SceneBroadPhase, MustNotBeNull) {
+  SceneOptions options;
+  options.broad_phase = [](double, int) { return nullptr; };
+  Scene scene(options);
+  EXPECT_THROW(scene.commit(Time{1}, {}), std::invalid_argument);
 }
 
 }  // namespace

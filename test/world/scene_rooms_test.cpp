@@ -4,6 +4,7 @@
 
 #include <tuple>
 
+#include "hgrid_proximity/partitions/partitions.h"
 #include "test/support/buildings.h"
 #include "test/support/maps.h"
 #include "test/support/scenes.h"
@@ -114,7 +115,7 @@ TEST(SceneRooms, RemoveExactlyThePairsWithoutACommonRoom) {
     plain.pair_margins = {{"obstacle/b7", "*", 0.25}};
     SceneOptions options = plain;
     options.building = test::twoRooms();
-    options.broad_phase = type;
+    options.broad_phase = [type](double edge, int threads) { return makeBroadPhase({type, edge, threads}); };
     TwinScenes scenes(options, plain, 5);
     for (int tick = 0; tick < 12; ++tick) {
       scenes.change();

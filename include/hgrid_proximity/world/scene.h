@@ -2,13 +2,14 @@
 // SPDX-FileCopyrightText: the hgrid_proximity authors
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "hgrid_proximity/broadphase/broad_phase_type.h"
+#include "hgrid_proximity/broadphase/broad_phase.h"
 #include "hgrid_proximity/broadphase/rooms.h"
 #include "hgrid_proximity/world/snapshot.h"
 
@@ -19,8 +20,9 @@ struct SceneOptions {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m, world] boxes are stored relative to this point
   double margin = 0.10;            ///< [m] bodies whose boxes are this close or closer are candidate pairs, 0 .. 1e3
   double event_hysteresis = 0.02;  ///< [m] a pair ends when its gap exceeds its margin by more than this, 0 .. 1e3
-  /// The kind of broad phase. It changes the time and the memory of a tick, but never its results.
-  BroadPhaseType broad_phase = BroadPhaseType::hgrid;
+  /// Makes a broad phase without boxes for `finest_edge` [m] and `threads`. Empty: makes an HGrid. The kind of broad
+  /// phase changes the time and the memory of a tick, but never its results.
+  std::function<std::unique_ptr<BroadPhase>(double finest_edge, int threads)> broad_phase;
   /// [m, world] Rooms with solid walls, and doors: bodies without a common room make no pair, see BodyRooms. Null:
   /// none.
   std::shared_ptr<const Building> building;

@@ -14,7 +14,7 @@ namespace hgrid {
 
 /// The boxes that changed one at a time, in the hierarchical grid of Ericson 2005, section 7.2.1: one hash table for
 /// the cells of all levels, each box in the cell of its center on the level of its size. Adding, moving and removing a
-/// box take constant time. src/broadphase/book/hashed_hgrid.h shows the structure with the words of the book.
+/// box take constant time. src/partitions/hashed_hgrid.h shows the structure with the words of the book.
 ///
 /// The "place" of a box is a number that stays the same until a box is removed, or changes its level. Then the last box
 /// of a level may take the place of another.

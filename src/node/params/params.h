@@ -10,10 +10,10 @@
 
 #include "hgrid_proximity/adapters/octomap.h"
 #include "hgrid_proximity/bodies/body.h"
-#include "hgrid_proximity/broadphase/broad_phase_type.h"
 #include "hgrid_proximity/broadphase/rooms.h"
 #include "hgrid_proximity/pairs/pair_filter.h"
 #include "hgrid_proximity/pairs/pair_margins.h"
+#include "hgrid_proximity/partitions/broad_phase_type.h"
 
 namespace hgrid {
 

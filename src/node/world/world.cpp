@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "hgrid_proximity/partitions/partitions.h"
 #include "hgrid_proximity/refusal.h"
 #include "node/world/find_trouble.h"
 #include "node/world/unplaced_robots.h"
@@ -20,7 +21,9 @@ SceneOptions optionsOf(const Params& params, const std::vector<PairRule>& stored
   options.origin = params.origin;
   options.margin = params.margin;
   options.event_hysteresis = params.event_hysteresis;
-  options.broad_phase = params.broad_phase;
+  options.broad_phase = [type = params.broad_phase](double finest_edge, int threads) {
+    return makeBroadPhase({type, finest_edge, threads});
+  };
   if (!params.rooms.empty()) options.building = std::make_shared<const Building>(params.rooms, params.doors);
   options.threads = params.threads;
   options.world_limit = params.world_limit;

@@ -99,13 +99,13 @@ Params paramsWith(const Value& obstacles) {
   return readParams(dict({{"world_frame", "world"}, {"obstacles", obstacles}, {"padding", padding}}));
 }
 
-Moment moment() {
+Moment arrival() {
   Moment now;
   now.ros = kNow;
   return now;
 }
 
-std::string refusalOf(const Value& obstacle) {
+std::string refusalOfObstacle(const Value& obstacle) {
   try {
     paramsWith(list({obstacle}));
     return {};
@@ -125,10 +125,10 @@ TEST(ObstacleParams, GiveTheSameObstacleAsARequest) {
   const auto no_files = [](const std::string&, const Eigen::Vector3d&) -> std::shared_ptr<const TriangleMesh> {
     throw Refusal(Code::resource_missing, "no files");
   };
-  configured.tick(moment());
-  requested.tick(moment());
+  configured.tick(arrival());
+  requested.tick(arrival());
   requested.applyObstacles(obstacleChangesOf(request, "/caller", without, *phase, no_files), kNow);
-  requested.tick(moment());
+  requested.tick(arrival());
   const auto &here = configured.obstacles().all(), &there = requested.obstacles().all();
   ASSERT_EQ(here.size(), 1u);
   ASSERT_EQ(there.size(), 1u);
@@ -153,7 +153,7 @@ TEST(ObstacleParams, ConfiguredObstaclesEnd) {
       list({with(ball("brief", 0, 0, 0, 1), {{"lifetime", 0.5}}),
             with(ball("seen", 5, 0, 0, 1), {{"lifetime", 0.5}, {"lost_at_end", true}}), ball("post", 9, 0, 0, 1)}));
   World world(settingsOf(params), false, 1, ledger, phase);
-  Moment now = moment();
+  Moment now = arrival();
   world.tick(now);
   EXPECT_EQ(world.obstacles().all().size(), 3u);
   now.ros += std::chrono::seconds(1);
@@ -182,14 +182,16 @@ TEST(ObstacleParams, APlaneHasOnlyAPoseAndPadding) {
   EXPECT_EQ(shape.padding, 0.1);
   EXPECT_EQ(shape.body_from_shape.translation().z(), -0.5);
   const Value sized = dict({{"type", "plane"}, {"size", xyz(1, 1, 1)}});
-  EXPECT_TRUE(
-      says(refusalOf(dict({{"name", "o"}, {"shapes", list({sized})}})), "~obstacles[0]/shapes[0]/size is not a field"));
+  EXPECT_TRUE(says(refusalOfObstacle(dict({{"name", "o"}, {"shapes", list({sized})}})),
+                   "~obstacles[0]/shapes[0]/size is not a field"));
 }
 
 TEST(ObstacleParams, WhatIsWrongIsNamed) {
-  const auto shaped = [](const Value& shape) { return refusalOf(dict({{"name", "o"}, {"shapes", list({shape})}})); };
+  const auto shaped = [](const Value& shape) {
+    return refusalOfObstacle(dict({{"name", "o"}, {"shapes", list({shape})}}));
+  };
   const Value sphere = ball("o", 0, 0, 0, 1);
-  const auto posed = [&](const Value& pose) { return refusalOf(with(sphere, {{"pose", pose}})); };
+  const auto posed = [&](const Value& pose) { return refusalOfObstacle(with(sphere, {{"pose", pose}})); };
   const std::pair<std::string, const char*> cases[] = {
       {shaped(dict({{"type", "hull"}})), "~obstacles[0]/shapes[0] has no 'vertices'; it must have one"},
       {shaped(dict({{"type", "mesh"}, {"vertices", corners()}})), "shapes[0] has no 'triangles'; it must have one"},
@@ -207,20 +209,23 @@ TEST(ObstacleParams, WhatIsWrongIsNamed) {
       {posed(dict({{"quaternion", numbers({0, 0, std::nan(""), 1})}})), "~obstacles[0]/pose/quaternion[2] is nan"},
       {posed(dict({{"quaternion", numbers({0, 0, 0, 1})}, {"rpy", xyz(0, 0, 0)}})),
        "~obstacles[0]/pose has rpy and quaternion; it must have only one of them"},
-      {refusalOf(with(sphere, {{"moving", 1}})), "~obstacles[0]/moving is an integer; it must be true or false"},
-      {refusalOf(with(sphere, {{"margin", -1.0}})), "~obstacles[0]/margin is -1 m; it must be within 0 .. 1000 m"},
-      {refusalOf(with(sphere, {{"max_speed", -1.0}})), "~obstacles[0]/max_speed is -1 m/s; it must be within"},
-      {refusalOf(with(sphere, {{"lifetime", -1.0}})), "~obstacles[0]/lifetime is -1 s; it must be within"},
-      {refusalOf(with(sphere, {{"lost_at_end", "yes"}})), "~obstacles[0]/lost_at_end is a string ('yes'); it must be"},
-      {refusalOf(with(sphere, {{"owner", "a\nb"}})), "~obstacles[0]/owner is 'a\\x0ab'; it must be UTF-8"},
+      {refusalOfObstacle(with(sphere, {{"moving", 1}})),
+       "~obstacles[0]/moving is an integer; it must be true or false"},
+      {refusalOfObstacle(with(sphere, {{"margin", -1.0}})),
+       "~obstacles[0]/margin is -1 m; it must be within 0 .. 1000 m"},
+      {refusalOfObstacle(with(sphere, {{"max_speed", -1.0}})), "~obstacles[0]/max_speed is -1 m/s; it must be within"},
+      {refusalOfObstacle(with(sphere, {{"lifetime", -1.0}})), "~obstacles[0]/lifetime is -1 s; it must be within"},
+      {refusalOfObstacle(with(sphere, {{"lost_at_end", "yes"}})),
+       "~obstacles[0]/lost_at_end is a string ('yes'); it must be"},
+      {refusalOfObstacle(with(sphere, {{"owner", "a\nb"}})), "~obstacles[0]/owner is 'a\\x0ab'; it must be UTF-8"},
   };
   for (const auto& [message, sentence] : cases) EXPECT_TRUE(says(message, sentence));
-  EXPECT_EQ(refusalOf(rich()), "");
+  EXPECT_EQ(refusalOfObstacle(rich()), "");
   // As a rule for what may touch it, this name would be a glob over other obstacles.
   const Value attached = dict({{"link", "arm/hand"}});
   const Value held = dict({{"name", "o*"}, {"shapes", list({dict({{"type", "sphere"}, {"radius", 1.0}})})}});
-  EXPECT_TRUE(
-      says(refusalOf(with(held, {{"attached", attached}})), "~obstacles[0] is attached, but its name 'o*' contains *"));
+  EXPECT_TRUE(says(refusalOfObstacle(with(held, {{"attached", attached}})),
+                   "~obstacles[0] is attached, but its name 'o*' contains *"));
 }
 
 }  // namespace
