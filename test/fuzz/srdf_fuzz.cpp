@@ -31,7 +31,7 @@ std::size_t tagsIn(const std::string& srdf) {
 }
 
 /// Returns what is wrong with the rules and with the matrix that they make; empty if nothing is wrong.
-std::string flawOf(const LinkRules& rules, const std::string& srdf) {
+std::string flawOfRules(const LinkRules& rules, const std::string& srdf) {
   static const RobotModel model = chain();
   if (rules.disabled.size() + rules.enabled.size() + rules.disabled_default.size() != tagsIn(srdf)) {
     return "not every tag is a rule";
@@ -78,7 +78,7 @@ std::string flawOfGroups(const std::string& srdf) {
 FuzzResult fuzzSrdf(std::string_view input) {
   const std::string text(input);
   try {
-    const std::string flaw = flawOf(readSrdf(text), text);
+    const std::string flaw = flawOfRules(readSrdf(text), text);
     return {true, flaw.empty() ? flawOfGroups(text) : flaw};
   } catch (const Refusal& refusal) {
     return {false, flawOfRefusal(refusal)};
